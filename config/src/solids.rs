@@ -1,11 +1,15 @@
-//! Closed meshes from PLY files, as shapes: `{ form = "mesh", file = "house.ply" }`, a file in the folder of the file
-//! that names it.
+//! Closed meshes from PLY, OBJ and GLB files, as shapes: `{ form = "mesh", file = "house.ply" }`, a file in the folder
+//! of the file that names it. The ending of the name tells the format; any other is read as a PLY.
 //!
 //! The points and triangles of the file take the place of its name in the tree, at the place of the name, so that a run
 //! is drawn again without the file. Its text is kept among the sources, by which a run knows its inputs. Absent: how
-//! meshes of organs are read (`forms`), and what a PLY is (`ply`).
+//! meshes of organs are read (`forms`), and what each format is (`ply`,
+//! `obj`, `glb`).
 
+mod glb;
+mod obj;
 mod ply;
+mod triangles;
 
 use crate::document::{Entry, Node, Value};
 use crate::library::Library;
@@ -13,7 +17,7 @@ use crate::report::Fault;
 use crate::source::{Sources, Span};
 use phytomer_models::fault::Path;
 use phytomer_sim::shape::Mesh;
-use ply::Triangles;
+use triangles::Triangles;
 
 /// The most bytes of all mesh files that one file names.
 const MOST_BYTES: usize = 16 << 20;
@@ -96,7 +100,7 @@ impl Filling<'_> {
         let Reading { library, sources, .. } = &mut self.reading;
         let beside = sources.get(span.source).origin.clone();
         let source = library.beside(name, &beside).map_err(|missing| {
-            let fault = fault(missing.problem, "a PLY file in the folder of this file");
+            let fault = fault(missing.problem, "a PLY, OBJ or GLB file in the folder of this file");
             Box::new(fault.suggest(missing.suggestion))
         })?;
         let bytes = source.bytes.clone().unwrap_or_else(|| source.text.as_bytes().into());
@@ -106,7 +110,13 @@ impl Filling<'_> {
             let problem = format!("the meshes up to `{name}` have more than {} MiB", MOST_BYTES >> 20);
             return Err(fault(problem, "fewer meshes, or smaller ones"));
         }
-        let triangles = ply::read(&bytes).map_err(|refused| {
+        let ends_in = |ending: &str| name.to_ascii_lowercase().ends_with(ending);
+        let read = match () {
+            () if ends_in(".obj") => obj::read(&bytes),
+            () if ends_in(".glb") => glb::read(&bytes),
+            () => ply::read(&bytes),
+        };
+        let triangles = read.map_err(|refused| {
             fault(format!("the mesh `{name}`, {}: {}", refused.place, refused.problem), &refused.expected)
         })?;
         let closed = Mesh::of(&triangles.points, &triangles.faces);

@@ -187,7 +187,7 @@ impl Rotation {
 
 impl Vector {
     #[inline]
-    fn of([x, y, z]: [f64; 3]) -> Self {
+    pub(crate) fn of([x, y, z]: [f64; 3]) -> Self {
         Self::new(x, y, z)
     }
 

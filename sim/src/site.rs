@@ -2,16 +2,19 @@
 //!
 //! At each tick the site reads all plants as they stood at the end of the last one, the plants grow side by side and
 //! see the site unchanged ([`View`]), and what they did is gathered in the order of the plot. So no result depends on
-//! the threads. Two things feed back today: obstacles, shapes that kill the buds that are in them or out of them, and
-//! cells of space that plants claim in the first half of a tick and are granted or refused in the second. Light and
-//! events of the date belong here. What the date alone decides is the [`calendar`], made of [`date`], [`sun`] and
+//! the threads. Two things feed back today: obstacles, shapes that kill the buds that are in them or out of them, or
+//! that shoots meet ([`solids`], with the ground, and the [`way`] past them), and cells of space that plants claim in
+//! the first half of a tick and are granted or refused in the second. Light and events of the date belong here. What
+//! the date alone decides is the [`calendar`], made of [`date`], [`sun`] and
 //! [`degree_days`]; replicates may have [`calendars`] of their own.
 
 pub mod calendar;
 pub mod calendars;
 pub mod date;
 pub mod degree_days;
+pub mod solids;
 pub mod sun;
+pub mod way;
 
 use crate::cells::Cells;
 use crate::clock::Tick;
@@ -19,7 +22,8 @@ use crate::math::{pow, sincos};
 use crate::plant::Drag;
 use crate::shape::Shape;
 use crate::vector::Vector;
-use std::sync::Arc;
+use solids::Solids;
+use std::sync::{Arc, OnceLock};
 
 /// The acceleration of gravity by convention, m/s².
 pub const STANDARD_GRAVITY: f64 = 9.80665;
@@ -36,19 +40,39 @@ pub struct Site {
     pub gravity: f64,
     /// The steady wind.
     pub wind: Wind,
-    /// Shapes that kill buds.
+    /// Shapes that kill buds, or that shoots meet.
     pub obstacles: Vec<Obstacle>,
+    /// The height of the ground in the plot, metres, where shoots meet it; `None` where they do not.
+    pub ground: Option<f64>,
+    /// What shoots meet, made of the obstacles and the ground when [`Site::solids`] is first called.
+    pub made_solids: OnceLock<Arc<Solids>>,
     /// The cells of space that plants claim, where they do.
     pub cells: Cells,
 }
 
-/// A shape in the plot that kills buds: a roof, a wall, a mown height, a form that is clipped all the time.
+/// A shape in the plot that kills buds or blocks their way: a roof, a wall, a mown height, a form that is clipped all
+/// the time.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Obstacle {
     /// The shape, in the coordinates of the plot, metres.
     pub shape: Arc<Shape>,
-    /// Where buds die.
+    /// Where buds die, or where shoots do not enter.
     pub kills: Side,
+    /// Whether it kills or blocks.
+    pub manner: Manner,
+}
+
+/// What an obstacle does to buds.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Manner {
+    /// It kills each bud that has come there.
+    #[default]
+    Kills,
+    /// Shoots do not enter it, and answer the contact as their species does.
+    Blocks {
+        /// Whether climbers hold to it.
+        holds: bool,
+    },
 }
 
 /// A side of the surface of a shape.
@@ -61,9 +85,14 @@ pub enum Side {
 }
 
 impl Obstacle {
+    /// Whether no bud lives at this point of the plot, metres: it is killed there, or does not come there.
+    pub fn bars_at(&self, point: [f64; 3]) -> bool {
+        self.shape.inside(point) == (self.kills == Side::Inside)
+    }
+
     /// Whether it kills a bud at this point of the plot, metres.
     pub fn kills_at(&self, point: [f64; 3]) -> bool {
-        self.shape.inside(point) == (self.kills == Side::Inside)
+        self.manner == Manner::Kills && self.bars_at(point)
     }
 }
 
@@ -108,6 +137,8 @@ impl Default for Site {
             gravity: STANDARD_GRAVITY,
             wind: Wind::default(),
             obstacles: Vec::new(),
+            ground: None,
+            made_solids: OnceLock::new(),
             cells: Cells::default(),
         }
     }
@@ -132,7 +163,7 @@ impl Site {
 
     /// Whether growth depends on where buds stand, so that plants must be posed at every tick.
     pub fn sees_buds(&self) -> bool {
-        !self.obstacles.is_empty()
+        !self.obstacles.is_empty() || self.ground.is_some()
     }
 
     /// Whether a bud at this point of the plot, metres, is killed by what it has reached.
@@ -140,11 +171,22 @@ impl Site {
         self.obstacles.iter().any(|obstacle| obstacle.kills_at(point))
     }
 
+    /// Whether nothing can grow at this point of the plot, metres, since an obstacle kills there or blocks the way.
+    pub fn bars_at(&self, point: [f64; 3]) -> bool {
+        self.obstacles.iter().any(|obstacle| obstacle.bars_at(point))
+    }
+
+    /// What shoots meet. Obstacles that are added after the first call are not among them.
+    pub fn solids(&self) -> &Solids {
+        self.made_solids.get_or_init(|| Arc::new(Solids::of(&self.obstacles, self.ground)))
+    }
+
     /// The site of a plot at another place: its obstacles and its cells stand `by` metres farther.
     pub fn moved(&self, by: [f64; 3]) -> Self {
         let moved = |obstacle: &Obstacle| Obstacle { shape: Arc::new(obstacle.shape.moved(by)), ..*obstacle };
         let obstacles = self.obstacles.iter().map(moved).collect();
-        Self { obstacles, cells: self.cells.moved(by), ..self.clone() }
+        let ground = self.ground.map(|height| height + by[2]);
+        Self { obstacles, ground, cells: self.cells.moved(by), made_solids: OnceLock::new(), ..self.clone() }
     }
 
     /// Gravity, and the drag of the wind: ½ ρ C_d U² a square metre with C_d = c U⁻ⁿ.

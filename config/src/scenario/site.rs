@@ -1,4 +1,4 @@
-//! External influences on the plants of a run: gravity, a steady wind, and shapes that kill buds.
+//! External influences on the plants of a run: gravity, a steady wind, and shapes that kill buds or block their way.
 //!
 //! Gravity and wind act only on species whose wood bends. A plane that kills is the shorter way to state a half space.
 //! The shapes that have names here also serve the events of the scenario. Absent: light and soil.
@@ -7,7 +7,7 @@ use phytomer_law::fault::{Fault, Path};
 use phytomer_models::buds::params::ColourText;
 use phytomer_models::shapes::{MOST_PARTS, Named, ShapeOrName, Shapes, length_of, one};
 use phytomer_sim::shape::{HalfSpace, Intersection, Shape};
-use phytomer_sim::site::{Obstacle as SimObstacle, STANDARD_GRAVITY, Side, Wind as SimWind};
+use phytomer_sim::site::{Manner, Obstacle as SimObstacle, STANDARD_GRAVITY, Side, Wind as SimWind};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
@@ -27,6 +27,10 @@ pub struct Site {
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = -90, max = 90))]
     pub latitude_deg: Option<f64>,
+    /// Whether shoots meet the ground, the plane z = 0: no tip of a shoot then grows below it. They do not if not
+    /// given.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub ground: bool,
     /// Planes that kill every bud that reaches them, as `[[site.plane]]`: a roof, a wall, a mown height. None if not
     /// given. Each plot has these planes, placed relative to the plot.
     #[serde(skip_serializing_if = "Vec::is_empty")]
@@ -34,13 +38,13 @@ pub struct Site {
     /// Shapes by their names, as `[site.shape.NAME]`, for obstacles and events. None if not given.
     #[serde(skip_serializing_if = "Shapes::is_empty")]
     pub shape: Shapes,
-    /// Shapes that kill buds, as `[[site.obstacle]]`: a house, or a form that is clipped all the time. None if not
-    /// given. Each plot has these obstacles, placed relative to the plot.
+    /// Shapes that kill buds or block their way, as `[[site.obstacle]]`: a house, a wall, or a form that is clipped all
+    /// the time. None if not given. Each plot has these obstacles, placed relative to the plot.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub obstacle: Vec<Obstacle>,
 }
 
-/// A shape that kills buds.
+/// A shape that kills buds or blocks their way.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Obstacle {
@@ -49,8 +53,15 @@ pub struct Obstacle {
     /// Where buds die; inside if not given.
     #[serde(default, skip_serializing_if = "Kills::is_inside")]
     pub kills: Kills,
-    /// Whether pictures and meshes of a plot show it. If not given they do where buds die inside and the shape has an
-    /// end.
+    /// Instead of `kills`: where shoots do not enter. The buds that meet it answer as their species states in
+    /// `[contact]`; they turn along it where it states nothing.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub blocks: Option<Kills>,
+    /// Whether climbers hold to an obstacle that blocks; they do if not given. Glass is a surface to which none holds.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub holds: Option<bool>,
+    /// Whether pictures and meshes of a plot show it. If not given they do where buds die or shoots are blocked inside
+    /// and the shape has an end.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub drawn: Option<bool>,
     /// Its colour there; that of plaster if not given.
@@ -67,7 +78,7 @@ pub struct DrawnObstacle {
     pub colour: Option<[u8; 3]>,
 }
 
-/// Where an obstacle kills buds.
+/// A side of an obstacle: where it kills buds, or where shoots do not enter.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Kills {
@@ -115,6 +126,7 @@ impl Default for Site {
             gravity_m_s2: STANDARD_GRAVITY,
             wind: None,
             latitude_deg: None,
+            ground: false,
             plane: Vec::new(),
             shape: Shapes::new(),
             obstacle: Vec::new(),
@@ -131,13 +143,18 @@ impl Site {
     /// The site of the plants of a plot at the origin. An obstacle that a fault was told of is left out.
     pub fn felt(&self) -> phytomer_sim::site::Site {
         let wind = self.wind.as_ref().map_or_else(SimWind::default, Wind::felt);
-        let beyond =
-            |plane: &Plane| SimObstacle { shape: Arc::new(Shape::HalfSpace(plane.side(-1.0))), kills: Side::Inside };
+        let beyond = |plane: &Plane| SimObstacle {
+            shape: Arc::new(Shape::HalfSpace(plane.side(-1.0))),
+            kills: Side::Inside,
+            manner: Manner::Kills,
+        };
         let mut obstacles: Vec<SimObstacle> = self.plane.iter().map(beyond).collect();
         let none = &mut Vec::new();
         let named = self.shapes(none);
         obstacles.extend(self.obstacle.iter().filter_map(|obstacle| obstacle.felt(&named, &Path::root(), none)));
-        phytomer_sim::site::Site { gravity: self.gravity_m_s2, wind, obstacles, ..phytomer_sim::site::Site::default() }
+        let ground = self.ground.then_some(0.0);
+        let open = phytomer_sim::site::Site::default();
+        phytomer_sim::site::Site { gravity: self.gravity_m_s2, wind, obstacles, ground, ..open }
     }
 
     /// The obstacles of a plot at the origin that pictures and meshes of it show. One that a fault was told of is left
@@ -152,6 +169,11 @@ impl Site {
     /// The shapes that have names, and their faults.
     pub(super) fn shapes(&self, faults: &mut Vec<Fault>) -> Named {
         Named::of(&self.shape, &Path::root().key("site").key("shape"), faults)
+    }
+
+    /// Whether shoots meet anything: an obstacle that blocks, or the ground.
+    pub(crate) fn blocks_shoots(&self) -> bool {
+        self.ground || self.obstacle.iter().any(|obstacle| obstacle.blocks.is_some())
     }
 
     /// Adds the faults of planes and obstacles that the schema cannot state.
@@ -169,6 +191,7 @@ impl Site {
                 break;
             }
             obstacle.check_drawn(felt.as_ref(), &path, faults);
+            obstacle.check_manner(&path, faults);
         }
         let is_short = |(_, plane): &(usize, &Plane)| HalfSpace::is_too_short(plane.normal);
         for (number, plane) in self.plane.iter().enumerate().filter(is_short) {
@@ -196,11 +219,32 @@ impl Plane {
 impl Obstacle {
     /// The obstacle as `phytomer_sim` takes it; `None` where its shape has faults.
     fn felt(&self, named: &Named, path: &Path, faults: &mut Vec<Fault>) -> Option<SimObstacle> {
-        let kills = match self.kills {
+        let kills = match self.side() {
             Kills::Inside => Side::Inside,
             Kills::Outside => Side::Outside,
         };
-        Some(SimObstacle { shape: one(&self.shape, named, &path.key("shape"), faults)?, kills })
+        let manner = match self.blocks {
+            Some(_) => Manner::Blocks { holds: self.holds.unwrap_or(true) },
+            None => Manner::Kills,
+        };
+        Some(SimObstacle { shape: one(&self.shape, named, &path.key("shape"), faults)?, kills, manner })
+    }
+
+    /// The side on which it kills or blocks.
+    fn side(&self) -> Kills {
+        self.blocks.unwrap_or(self.kills)
+    }
+
+    /// Adds the faults of keys that have no effect beside others.
+    fn check_manner(&self, path: &Path, faults: &mut Vec<Fault>) {
+        if self.blocks.is_some() && !self.kills.is_inside() {
+            let problem = "the obstacle kills on one side and blocks";
+            faults.push(Fault::new(&path.key("kills"), problem, "`kills` or `blocks`, not both"));
+        }
+        if self.holds.is_some() && self.blocks.is_none() {
+            let problem = "no shoot holds to an obstacle that kills";
+            faults.push(Fault::new(&path.key("holds"), problem, "`blocks` beside it, or no `holds`"));
+        }
     }
 
     /// Adds the faults of how it is to be drawn.
@@ -218,7 +262,7 @@ impl Obstacle {
 
     /// What is drawn of it, if anything is.
     fn drawn(&self, felt: SimObstacle) -> Option<DrawnObstacle> {
-        let drawn = self.drawn.unwrap_or(self.kills.is_inside()) && has_end(&felt.shape);
+        let drawn = self.drawn.unwrap_or(self.side().is_inside()) && has_end(&felt.shape);
         let colour = self.colour.as_ref().and_then(ColourText::rgb);
         drawn.then_some(DrawnObstacle { shape: felt.shape, colour })
     }

@@ -4,45 +4,9 @@
 //! The header is compared with what a shape may have before the rest is read. Absent: all other elements and
 //! properties, which are read and skipped; and whether the triangles enclose space.
 
-use phytomer_looks::polygon;
+use super::triangles::{MOST_ELEMENTS, MOST_TRIANGLES, Refused, Triangles};
 use ply_rs_bw::parser::{ParseError, Parser, Reader};
 use ply_rs_bw::ply::{DefaultElement, Header, Property};
-
-/// The most triangles of a mesh.
-const MOST_TRIANGLES: usize = 50_000;
-/// The most corners of a polygon, since cutting it takes the square of their number.
-const MOST_CORNERS: usize = 1000;
-/// The most elements of any other kind: of triangles that share no corners three each.
-const MOST_ELEMENTS: usize = 3 * MOST_TRIANGLES;
-
-/// The triangles of a file, metres.
-#[derive(Debug, Clone, PartialEq)]
-pub(super) struct Triangles {
-    pub points: Vec<[f64; 3]>,
-    pub faces: Vec<[u32; 3]>,
-}
-
-/// What is wrong with a file: the place in it, the problem, and what was expected.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub(super) struct Refused {
-    pub place: String,
-    pub problem: String,
-    pub expected: String,
-}
-
-impl Refused {
-    fn new(place: impl Into<String>, problem: impl Into<String>, expected: impl Into<String>) -> Self {
-        Self { place: place.into(), problem: problem.into(), expected: expected.into() }
-    }
-}
-
-impl Triangles {
-    /// A mesh that nothing is wrong with.
-    pub fn tetrahedron() -> Self {
-        let points = vec![[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
-        Self { points, faces: vec![[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]] }
-    }
-}
 
 /// Reads the triangles of a PLY file.
 pub(super) fn read(bytes: &[u8]) -> Result<Triangles, Refused> {
@@ -82,26 +46,7 @@ fn add(triangles: &mut Triangles, number: usize, face: &DefaultElement) -> Resul
     let corners = ["vertex_indices", "vertex_index"].iter().find_map(|name| face.get(*name)).and_then(indices);
     let expected = "a list property `vertex_indices` of whole numbers from 0";
     let corners = corners.ok_or_else(|| Refused::new(place(), "it has no list of vertices", expected))?;
-    let points = triangles.points.len();
-    if let Some(outside) = corners.iter().find(|corner| **corner as usize >= points) {
-        let problem = format!("it names the vertex {outside}, counted from 0");
-        return Err(Refused::new(place(), problem, format!("one of the {points} vertices")));
-    }
-    if !(3..=MOST_CORNERS).contains(&corners.len()) {
-        let problem = format!("it has {} corners", corners.len());
-        return Err(Refused::new(place(), problem, format!("3 to {MOST_CORNERS}")));
-    }
-    let at = |corner: &u32| triangles.points[*corner as usize];
-    let first = at(&corners[0]);
-    // From the first corner, so that single precision is enough to cut it.
-    let beside: Vec<[f32; 3]> =
-        corners.iter().map(|corner| [0, 1, 2].map(|k| (at(corner)[k] - first[k]) as f32)).collect();
-    triangles.faces.extend(polygon::triangles(&beside).into_iter().map(|face| face.map(|corner| corners[corner])));
-    if triangles.faces.len() > MOST_TRIANGLES {
-        let problem = format!("up to here there are more than {MOST_TRIANGLES} triangles");
-        return Err(Refused::new(place(), problem, format!("a mesh of at most {MOST_TRIANGLES}")));
-    }
-    Ok(())
+    triangles.add(place, &corners)
 }
 
 /// Refuses a header that announces more elements than the file can hold or a shape may have.

@@ -29,6 +29,8 @@ pub struct At {
     pub unit: u32,
     /// The height of the plant at the end of the last tick, in steps of [`HEIGHT_STEP`].
     pub height: u32,
+    /// Whether the bud meets an obstacle: 1 or 0.
+    pub contact: u32,
     /// Index of the physiological state in [`Domain::states`].
     pub state: u8,
 }
@@ -73,10 +75,10 @@ pub struct Longest {
 }
 
 /// The number of variables of a grid: those of [`Variable`] that the date does not decide, and the state.
-const AXES: usize = 9;
+const AXES: usize = 10;
 /// The place of the state among the variables of a grid.
-const STATE: usize = 8;
-/// The place of the first of the variables that few laws name: those of the bud, and the height of the plant.
+const STATE: usize = 9;
+/// The place of the first of the variables that few laws name: those of the bud, the height of the plant and contact.
 const RARE: usize = 4;
 
 /// The steps in which laws know the height of a plant, metres: a table has a cell for each.
@@ -150,8 +152,9 @@ impl At {
     #[inline]
     fn all(&self) -> [u32; AXES] {
         let (bud_birth, bud_dimension) = (self.bud_birth, self.bud_dimension);
-        let state = u32::from(self.state);
-        [self.age, self.dimension, self.cycle, self.rank, bud_birth, bud_dimension, self.unit, self.height, state]
+        let (height, contact, state) = (self.height, self.contact, u32::from(self.state));
+        let Self { age, dimension, cycle, rank, unit, .. } = *self;
+        [age, dimension, cycle, rank, bud_birth, bud_dimension, unit, height, contact, state]
     }
 
     /// The variables in `uses` with their values, such as "age 3, dimension 27, state adult"; empty where there are
@@ -195,6 +198,7 @@ impl Domain {
             Variable::Rank => (self.max_rank.min(1), self.max_rank),
             Variable::Unit => (0, self.max_unit),
             Variable::HeightM => (0, MOST_HEIGHT),
+            Variable::Contact => (0, 1),
             _ => self.range_of_dates(variable),
         }
     }
@@ -286,8 +290,8 @@ impl Grid {
         let mut cells: u64 = 1;
         let states = (0, u32::try_from(domain.states.len().saturating_sub(1)).unwrap_or(u32::MAX));
         // The rank runs fastest and the state slowest.
-        use Variable::{Age, BudBirth, BudDimension, Cycle, Dimension, HeightM, Rank, Unit};
-        let of_time = [Rank, HeightM, Cycle, Unit, BudDimension, Dimension, BudBirth, Age];
+        use Variable::{Age, BudBirth, BudDimension, Contact, Cycle, Dimension, HeightM, Rank, Unit};
+        let of_time = [Rank, Contact, HeightM, Cycle, Unit, BudDimension, Dimension, BudBirth, Age];
         let ranges = of_time.map(|variable| (axis_of(variable), domain.cells(variable)));
         for (axis, (first, last)) in ranges.into_iter().chain([(STATE, states)]) {
             if !uses.axes[axis] {
@@ -360,7 +364,7 @@ impl Grid {
             stride => self.first[axis] + cell / stride % (self.span[axis] + 1),
         };
         let used = |variable: Variable| self.stride[variable as usize] != 0;
-        let [age, mut dimension, cycle, rank, mut bud_birth, mut bud_dimension, unit, height, state] =
+        let [age, mut dimension, cycle, rank, mut bud_birth, mut bud_dimension, unit, height, contact, state] =
             std::array::from_fn(value);
         if used(Variable::Age) {
             dimension = dimension.min(age);
@@ -376,6 +380,6 @@ impl Grid {
             bud_dimension = bud_dimension.min(bud_birth);
         }
         let state = u8::try_from(state).unwrap_or(u8::MAX);
-        At { age, dimension, cycle, rank, bud_birth, bud_dimension, unit, height, state }
+        At { age, dimension, cycle, rank, bud_birth, bud_dimension, unit, height, contact, state }
     }
 }

@@ -36,6 +36,8 @@ pub enum Variable {
     Unit,
     /// The height of the plant at the end of the last tick, metres.
     HeightM,
+    /// Whether the bud meets an obstacle at this step: 1 or 0.
+    Contact,
     /// The nitrogen of the season, kg/ha: the soil's own supply and what was applied since the season began.
     Nitrogen,
     /// Degree-days since the plant was sown, °C d.
@@ -50,7 +52,7 @@ pub enum Variable {
 
 impl Variable {
     /// Every variable, in the order of the lists that people see.
-    pub const ALL: [Self; 13] = [
+    pub const ALL: [Self; 14] = [
         Self::Age,
         Self::Dimension,
         Self::Cycle,
@@ -59,6 +61,7 @@ impl Variable {
         Self::BudDimension,
         Self::Unit,
         Self::HeightM,
+        Self::Contact,
         Self::Nitrogen,
         Self::DegreeDays,
         Self::DegreeDaysPerDay,
@@ -81,6 +84,7 @@ impl Variable {
             Self::BudDimension => "bud_dimension",
             Self::Unit => "unit",
             Self::HeightM => "height_m",
+            Self::Contact => "contact",
             Self::Nitrogen => "nitrogen",
             Self::DegreeDays => "degree_days",
             Self::DegreeDaysPerDay => "degree_days_per_day",
@@ -110,6 +114,9 @@ impl Variable {
             Self::HeightM => {
                 "the height of the plant at the end of the last tick, metres, in steps of 5 cm: that of the highest tip of \
                  an internode above the seed"
+            }
+            Self::Contact => {
+                "1 where the bud meets an obstacle or the ground within the cone that its species states, else 0"
             }
             Self::Nitrogen => {
                 "the nitrogen of the season, kg/ha: the soil's own supply and what was applied since the season began"
@@ -145,7 +152,7 @@ impl Variable {
 
     /// Whether the range of the variable is longer in a longer run.
     pub const fn goes_on_with_time(self) -> bool {
-        !matches!(self, Self::Rank)
+        !matches!(self, Self::Rank | Self::Contact)
     }
 }
 

@@ -9,6 +9,7 @@
 //! [`Axis::grow`] takes an axis from any age to any later one; whether a plant grows axis by axis to the end or tick by
 //! tick, each axis makes the same draws at the same steps.
 
+use super::around::Around;
 use super::bud::ApicalBud;
 use super::compile::{BudModel, OrderLaws, Passage};
 use super::params::ApexEnd;
@@ -29,6 +30,10 @@ pub(super) struct Axis<'a> {
     dimension: u32,
     /// The height of the plant, in the steps in which laws know it; 0 where none asks.
     height: u32,
+    /// What the bud can meet, where there is anything.
+    pub around: Option<Around<'a>>,
+    /// Whether it meets something at this step: 1 or 0.
+    pub contact: u32,
     speed: Speed,
     /// The growth units after which the apex ends.
     last_unit: u32,
@@ -58,6 +63,8 @@ impl<'a> Axis<'a> {
             tick: bud.age,
             dimension: 0,
             height,
+            around: None,
+            contact: 0,
             speed: Speed::ONE,
             last_unit: u32::MAX,
             leads: false,
@@ -125,14 +132,15 @@ impl<'a> Axis<'a> {
     pub fn at(&self, rank: u32) -> At {
         let ApicalBud { cycle, units: unit, birth: bud_birth, state, .. } = self.bud;
         let bud_dimension = bud_birth.saturating_sub(self.birth);
-        let height = self.height;
-        At { age: self.tick, dimension: self.dimension, cycle, rank, bud_birth, bud_dimension, unit, height, state }
+        let (age, dimension, height, contact) = (self.tick, self.dimension, self.height, self.contact);
+        At { age, dimension, cycle, rank, bud_birth, bud_dimension, unit, height, contact, state }
     }
 
     /// One clock step of the apical bud; false where it ended.
     fn step(&mut self) -> Result<bool, Full> {
         self.bud.cycle += 1;
         self.read_step();
+        self.feel();
         let laws = &self.laws.step;
         let at = self.at(0);
         if laws.death.happens(&self.words.step, 0, at) {
@@ -150,13 +158,25 @@ impl<'a> Axis<'a> {
             self.terminal_flower();
             return if self.plant.is_overgrown() { Err(Full) } else { ended };
         }
+        if let Some(lives) = self.answer_contact()? {
+            return Ok(lives);
+        }
         for unit in 0..laws.per_step.draw(&self.words.step, 0, at) {
-            self.growth_unit(unit)?;
+            let grown = self.growth_unit(unit)?;
+            if self.ends_stuck()? {
+                return Ok(false);
+            }
+            if !grown {
+                break;
+            }
             // The growth unit has a new bud at its tip.
             self.bud.units += 1;
             self.bud.birth = self.tick;
             if self.bud.units >= self.last_unit {
                 return self.end(ApexFate::Completed, EventKind::Completed, ApexEnd::Completed);
+            }
+            if self.is_stuck() {
+                break;
             }
         }
         self.pass_state()?;
@@ -168,8 +188,9 @@ impl<'a> Axis<'a> {
         self.words.read_step(self.laws, &self.plant.random, key, self.bud.cycle - 1);
     }
 
-    /// A growth unit: its type, the number of its nodes, then node by node.
-    fn growth_unit(&mut self, unit: u32) -> Result<(), Full> {
+    /// A growth unit: its type, the number of its nodes, then node by node as far as there is a way. Whether it was
+    /// made: a unit whose first node has no way is a pause.
+    fn growth_unit(&mut self, unit: u32) -> Result<bool, Full> {
         let laws = &self.laws.step;
         let at = self.at(0);
         let short = laws.short.happens(&self.words.step, unit, at);
@@ -186,12 +207,19 @@ impl<'a> Axis<'a> {
         if laws.zone_ranks.are_drawn() {
             laws.zone_ranks.draw(&self.words.step, unit, at, &mut self.words.zones);
         }
+        let mut made = 0;
         for rank in 1..=nodes {
             self.read_node();
-            self.node(rank, nodes, short, rank > preformed)?;
+            let Some(lie) = self.lie(rank, short) else { break };
+            self.node(rank, nodes, (short, rank > preformed), lie)?;
+            made = rank;
         }
-        self.note(EventKind::Grew, nodes);
-        Ok(())
+        if self.is_stuck() && made == 0 {
+            self.note(EventKind::Paused, 1);
+            return Ok(false);
+        }
+        self.note(EventKind::Grew, made);
+        Ok(true)
     }
 
     #[inline]
@@ -219,11 +247,11 @@ impl<'a> Axis<'a> {
     }
 
     /// Writes down what the bud did, in its present state.
-    fn note(&mut self, event: EventKind, count: u32) {
+    pub(super) fn note(&mut self, event: EventKind, count: u32) {
         self.plant.note_in_state(self.bud.state, self.tick, self.bud.axis, event, count);
     }
 
-    fn end(&mut self, fate: ApexFate, event: EventKind, end: ApexEnd) -> Result<bool, Full> {
+    pub(super) fn end(&mut self, fate: ApexFate, event: EventKind, end: ApexEnd) -> Result<bool, Full> {
         self.plant.axes.end_apex(self.bud.axis, self.tick, fate);
         let count = if fate == ApexFate::Completed { self.bud.units } else { 1 };
         self.note(event, count);

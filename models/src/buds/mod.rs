@@ -3,10 +3,12 @@
 //! [`Buds`] are the parameters as people state them, in the laws of [`crate::law`]; [`BudModel`] is the compiled
 //! species that grows. [`expectation`] gives the mean of what grows in closed form.
 
+mod around;
 mod attack;
 mod bud;
 mod card;
 mod compile;
+mod contact;
 mod cuts;
 pub mod expectation;
 mod grow;
@@ -19,6 +21,8 @@ mod record;
 mod tests;
 #[cfg(test)]
 mod tests_chain;
+#[cfg(test)]
+mod tests_contact;
 #[cfg(test)]
 mod tests_cuts;
 #[cfg(test)]

@@ -62,7 +62,7 @@ impl BudModel {
     /// # Errors
     /// [`Overgrown`] where the plant comes to its limit.
     pub fn grow_axis(&self, plant: &mut Plant, bud: ApicalBud, age: Tick) -> Result<Option<ApicalBud>, Overgrown> {
-        self.grow_with(plant, bud, age, &mut Words::default())
+        self.grow_with((plant, None), bud, age, &mut Words::default())
     }
 
     /// The bud from which axis `axis` of `plant` starts.
@@ -83,25 +83,31 @@ impl BudModel {
 
     fn grow_with(
         &self,
-        plant: &mut Plant,
+        (plant, site): (&mut Plant, Option<&Site>),
         bud: ApicalBud,
         age: Tick,
         words: &mut Words,
     ) -> Result<Option<ApicalBud>, Overgrown> {
         let limit = Overgrown::of(plant);
-        Axis::new(self, plant, words, bud).grow(age).map_err(|Full| limit)
+        Axis::new(self, plant, words, bud).among(site).grow(age).map_err(|Full| limit)
     }
 
     /// Grows every living bud first, then the axes that arise meanwhile, each through all its ticks: parents come
     /// before their children, and nodes of an axis that are grown at once are neighbours in the columns.
-    fn grow_plant(&self, plant: &mut Plant, living: &mut Vec<ApicalBud>, age: Tick) -> Result<(), Overgrown> {
+    /// Living buds meet the solids of `site`; axes that arise meanwhile make nothing at the tick of their birth.
+    fn grow_plant(
+        &self,
+        (plant, site): (&mut Plant, Option<&Site>),
+        living: &mut Vec<ApicalBud>,
+        age: Tick,
+    ) -> Result<(), Overgrown> {
         let mut words = Words::default();
         let first_new = plant.axes.len();
         if !plant.cuts.all().is_empty() {
             // Leaves out the buds of axes that were cut off since the last tick.
             living.retain(|bud| plant.axes.apex_fate[bud.axis.index()] == ApexFate::Alive);
         }
-        keep(living, |bud| self.grow_with(plant, bud, age, &mut words))?;
+        keep(living, |bud| self.grow_with((plant, site), bud, age, &mut words))?;
         let mut next = first_new;
         while next < plant.axes.len() {
             let waiting = next..plant.axes.len();
@@ -171,7 +177,7 @@ impl BudModel {
         let mut living = Vec::new();
         for axis in waiting {
             let bud = first_bud(self, plant, AxisId(axis as u32));
-            living.extend(self.grow_with(plant, bud, age, &mut words)?);
+            living.extend(self.grow_with((plant, None), bud, age, &mut words)?);
         }
         Ok(living)
     }
@@ -234,7 +240,8 @@ impl Grow for BudModel {
         if view.site.sees_buds() {
             self.kill_reaching(plant, living, age, view.site)?;
         }
-        self.grow_plant(plant, living, age)
+        let met = Some(view.site).filter(|site| !site.solids().is_empty());
+        self.grow_plant((plant, met), living, age)
     }
 
     fn answer_cuts(&self, age: Tick, plant: &mut Plant, LivingBuds(living): &mut LivingBuds) -> Result<(), Overgrown> {

@@ -3,6 +3,7 @@
 //! Order of a node's components: internode, leaves, lateral flowers, then axillary and reiteration buds; the positions
 //! of a node are spread evenly around it, the first at the node's azimuth, each axillary bud in the axil of its leaf.
 
+use super::around::Lie;
 use super::bud::ApicalBud;
 use super::compile::Branching;
 use super::grow::{Axis, Full, add_axis};
@@ -46,10 +47,17 @@ struct AxillaryBuds {
 
 impl Axis<'_> {
     /// Adds a node of the given rank to a growth unit of `nodes` nodes.
-    pub(super) fn node(&mut self, rank: u32, nodes: u32, short: bool, neoformed: bool) -> Result<(), Full> {
+    pub(super) fn node(
+        &mut self,
+        rank: u32,
+        nodes: u32,
+        (short, neoformed): (bool, bool),
+        lie: Lie,
+    ) -> Result<(), Full> {
         let at = self.at(rank);
         let azimuth = self.bud.azimuth;
         let node = self.internode(rank, short, neoformed, at);
+        self.turn(node, lie);
         let buds = if self.laws.node.is_bare {
             self.bud.dormant = 0;
             0
@@ -82,10 +90,19 @@ impl Axis<'_> {
         buds
     }
 
+    /// The length of the next internode, metres, and the trend that it names.
+    #[inline]
+    pub(super) fn next_internode(&self, at: At, short: bool) -> (f32, u8) {
+        let laws = &self.laws.node;
+        let length = if short { &laws.short_length } else { &laws.long_length };
+        let trend = self.laws.head.trends.at(self.bud.rank + 1, self.bud.state, &self.words.trends);
+        (length.draw(&self.words.on_node, 0, at), trend)
+    }
+
     fn internode(&mut self, rank: u32, short: bool, neoformed: bool, at: At) -> NodeId {
+        let (length, trend) = self.next_internode(at, short);
         let laws = &self.laws.node;
         let words = &self.words.on_node;
-        let length = if short { &laws.short_length } else { &laws.long_length };
         let along = self.bud.rank + 1;
         let new = NewNode {
             parent: self.bud.last_node,
@@ -95,8 +112,8 @@ impl Axis<'_> {
             unit_rank: u16::try_from(rank).unwrap_or(u16::MAX),
             short,
             neoformed,
-            trend: self.laws.head.trends.at(along, self.bud.state, &self.words.trends),
-            length: length.draw(words, 0, at),
+            trend,
+            length,
             diameter: laws.diameter.draw(words, 0, at),
             azimuth: self.bud.azimuth,
         };

@@ -39,7 +39,7 @@ impl Axis<'_> {
         let (death, cause) = first_end(own, eaten);
         let words = &self.words.on_node;
         let (length, width) = (laws.leaf.length.draw(words, nth, at), laws.leaf.width.draw(words, nth, at));
-        self.plant.add_organ(NewOrgan {
+        let leaf = self.plant.add_organ(NewOrgan {
             node,
             kind: laws.leaf.kind,
             position: nth as u16,
@@ -53,6 +53,7 @@ impl Axis<'_> {
             azimuth,
             insertion: laws.leaf.insertion.draw(words, nth, at),
         });
+        self.lay_leaf(leaf);
     }
 
     /// Adds a lateral flower, where it opens.

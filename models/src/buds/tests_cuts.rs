@@ -37,7 +37,7 @@ fn whips() -> Buds {
         traumatic: Traumatic { probability: Law::from(1.0), ..Traumatic::default() },
         ..Order::default()
     };
-    Buds { states: Vec::new(), season: None, wood: None, response: Vec::new(), order: vec![order(0.0), order(0.0)] }
+    Buds { order: vec![order(0.0), order(0.0)], ..Buds::default() }
 }
 
 fn compiled(buds: &Buds, until: Tick) -> BudModel {

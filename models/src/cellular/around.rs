@@ -33,12 +33,12 @@ impl Around<'_> {
 
     /// Whether nothing can grow there.
     pub fn is_shut(&self, at: [f64; 3]) -> bool {
-        !self.site.obstacles.is_empty() && self.site.kills_at(self.world(at))
+        !self.site.obstacles.is_empty() && self.site.bars_at(self.world(at))
     }
 
     /// Whether a body stands there, which shades.
     pub fn is_solid(&self, at: [f64; 3]) -> bool {
-        self.bodies().any(|body| body.kills_at(self.world(at)))
+        self.bodies().any(|body| body.bars_at(self.world(at)))
     }
 
     /// The distance to the nearest surface of a body, metres, negative inside; infinite where there is no body.
@@ -50,7 +50,7 @@ impl Around<'_> {
     /// and where the field of what shuts it has no slope.
     pub fn opens(&self, at: [f64; 3], step: f64) -> Option<[f64; 3]> {
         let world = self.world(at);
-        let obstacle = self.site.obstacles.iter().find(|obstacle| obstacle.kills_at(world))?;
+        let obstacle = self.site.obstacles.iter().find(|obstacle| obstacle.bars_at(world))?;
         let field = |axis: usize, by: f64| {
             let beside = [0, 1, 2].map(|k| world[k] + if k == axis { by } else { 0.0 });
             obstacle.shape.field(beside)

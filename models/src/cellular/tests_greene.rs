@@ -11,7 +11,7 @@ use crate::fault::Path;
 use phytomer_sim::plant::{NodeId, Plant};
 use phytomer_sim::pose::{node_frame, pose};
 use phytomer_sim::shape::{Cuboid, Difference, HalfSpace, Intersection, Shape, Solid, Union};
-use phytomer_sim::site::{Obstacle, Side};
+use phytomer_sim::site::{Manner, Obstacle, Side};
 use phytomer_sim::{GrowthModel, Plot, Sowing};
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -43,7 +43,8 @@ pub(super) fn house() -> Shape {
 fn among(model: &dyn GrowthModel, obstacle: &Shape, until: u32) -> Plant {
     let sowing = Sowing { species: 0, seed: contract::seed_of(4, 1), place: PLACE, sown: 0 };
     let mut plot = Plot::new(0, vec![model], &[sowing]);
-    plot.site.obstacles = vec![Obstacle { shape: Arc::new(obstacle.moved(PLACE)), kills: Side::Inside }];
+    plot.site.obstacles =
+        vec![Obstacle { shape: Arc::new(obstacle.moved(PLACE)), kills: Side::Inside, manner: Manner::Kills }];
     for tick in 1..=until {
         plot.site.begin(tick);
         plot.grow_to(tick).expect("room to grow");

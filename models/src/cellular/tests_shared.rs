@@ -8,7 +8,7 @@ use super::voxels::{Lattice, Voxel};
 use crate::contract;
 use phytomer_sim::plant::{NodeId, Plant};
 use phytomer_sim::pose::pose;
-use phytomer_sim::site::{Obstacle, Side};
+use phytomer_sim::site::{Manner, Obstacle, Side};
 use phytomer_sim::{GrowthModel, Plot, Sowing};
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -21,7 +21,8 @@ fn grown<'m>(model: &'m dyn GrowthModel, beside: &[[f64; 3]], until: u32, shared
     };
     let sowings: Vec<Sowing> = (0..).zip(beside).map(sowing).collect();
     let mut plot = Plot::new(0, vec![model], &sowings);
-    plot.site.obstacles = vec![Obstacle { shape: Arc::new(house().moved(PLACE)), kills: Side::Inside }];
+    plot.site.obstacles =
+        vec![Obstacle { shape: Arc::new(house().moved(PLACE)), kills: Side::Inside, manner: Manner::Kills }];
     plot.site.cells.shared = shared;
     plot.site.cells.origin = PLACE;
     assert!(!plot.ahead(until), "it follows the clock");

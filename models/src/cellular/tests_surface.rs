@@ -9,7 +9,7 @@ use crate::fault::Path;
 use phytomer_sim::plant::{NodeId, Plant};
 use phytomer_sim::pose::{node_frame, pose};
 use phytomer_sim::shape::{Cuboid, Cylinder, Difference, HalfSpace, Shape, Sphere, Union};
-use phytomer_sim::site::{Obstacle, Side};
+use phytomer_sim::site::{Manner, Obstacle, Side};
 use phytomer_sim::{Plot, Sowing};
 use std::sync::Arc;
 
@@ -26,7 +26,8 @@ fn among(more: serde_json::Value, obstacles: Vec<(Shape, Side)>, seed: u32, unti
     let model = cohen.compile(until, &Path::root()).expect("sound parameters");
     let sowing = Sowing { species: 0, seed: contract::seed_of(6, seed), place: PLACE, sown: 0 };
     let mut plot = Plot::new(0, vec![&model], &[sowing]);
-    let felt = |(shape, kills): (Shape, Side)| Obstacle { shape: Arc::new(shape.moved(PLACE)), kills };
+    let felt =
+        |(shape, kills): (Shape, Side)| Obstacle { shape: Arc::new(shape.moved(PLACE)), kills, manner: Manner::Kills };
     plot.site.obstacles = obstacles.into_iter().map(felt).collect();
     for tick in 1..=until {
         plot.site.begin(tick);

@@ -11,7 +11,7 @@ use phytomer_sim::plant::{Cause, Plant};
 use phytomer_sim::plot::{Plot, Sowing};
 use phytomer_sim::pose::bud_frame;
 use phytomer_sim::shape::{HalfSpace, Shape};
-use phytomer_sim::site::{Obstacle, Side};
+use phytomer_sim::site::{Manner, Obstacle, Side};
 use std::sync::Arc;
 
 /// Two species in one plot, sown at several ticks, grow as each does alone where they share nothing. Under a plane that
@@ -29,7 +29,7 @@ pub fn two_species_share_a_plot(models: [&dyn GrowthModel; 2], until: Tick, seed
         assert_same(rule, &components(&alone), &components(&open.plants[k]));
     }
     let above = HalfSpace { point: [0.0, 0.0, height], normal: [0.0, 0.0, -1.0] };
-    let roof = Obstacle { shape: Arc::new(Shape::HalfSpace(above)), kills: Side::Inside };
+    let roof = Obstacle { shape: Arc::new(Shape::HalfSpace(above)), kills: Side::Inside, manner: Manner::Kills };
     let under = on_threads(&models, &sowings, until, &[roof]);
     for (plant, member) in under.plants.iter().zip(&under.members) {
         if models[member.species].growth() == Growth::Extends {

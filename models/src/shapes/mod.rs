@@ -174,7 +174,8 @@ pub enum StatedShape {
     },
     /// A closed mesh of triangles: of a file, or stated by its points and triangles.
     Mesh {
-        /// The PLY file that has it, in metres, z upward: a file in the folder of the file that names it.
+        /// The PLY, OBJ or GLB file that has it, in metres, z upward (of a GLB y): a file in the folder of the file
+        /// that names it.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         #[schemars(length(min = 1))]
         file: Option<String>,

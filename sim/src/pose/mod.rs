@@ -7,6 +7,7 @@
 //! follow both. The seed is the origin of all frames, so that precision does not depend on the place in a plot. Absent:
 //! the columns of the pose, which are the plant's; bending, which is the work of mechanics.
 
+mod ahead;
 pub(crate) mod bent;
 mod course;
 pub(crate) mod organs;
@@ -20,6 +21,7 @@ use crate::plant::{AxisId, NodeId, Plant};
 use crate::vector::Vector;
 
 pub use crate::plant::frames::{Frame, Frames};
+pub use ahead::Ahead;
 pub use organs::{OrganInputs, organ_follows_from, organ_frame, stated_organ_frame};
 
 /// Poses every internode of `plant` that appeared by `age` and has no frame yet. Other frames stay: the pose at rest of

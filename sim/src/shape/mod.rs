@@ -17,7 +17,7 @@ mod round;
 mod shell;
 mod soft;
 mod straight;
-mod tree;
+pub(crate) mod tree;
 
 pub use bounds::Bounds;
 pub use combined::{Blend, Difference, Intersection, Union};

@@ -45,6 +45,13 @@ pub fn as_text(resolved: &Resolved) -> String {
     for plane in &scenario.site.plane {
         line("plane", format!("through {:?} m, kills the buds towards {:?}", plane.point_m, plane.normal));
     }
+    if scenario.site.ground {
+        line("ground", "shoots meet it".to_owned());
+    }
+    match scenario.site.obstacle.iter().filter(|obstacle| obstacle.blocks.is_some()).count() {
+        0 => {}
+        some => line("obstacles", format!("{some} that shoots meet")),
+    }
     for event in &scenario.event {
         line("event", event.in_words());
     }

@@ -8,6 +8,7 @@ mod branching;
 mod chain;
 mod change;
 mod compiler;
+mod contact;
 mod geometry;
 mod head;
 mod look;
@@ -23,6 +24,7 @@ mod zone;
 
 pub(super) use branching::Branching;
 pub(super) use change::{join, nodes_times};
+pub(super) use contact::ContactLaws;
 pub(super) use head::HeadLaws;
 pub(super) use node::{
     LeafFall, NODE_OF_RESPONSES, NodeLaws, PLACE_OF_EATEN_FLOWERS, PLACE_OF_EATEN_FRUITS, PLACE_OF_EATEN_LEAVES,
@@ -52,6 +54,8 @@ pub struct BudModel {
     pub(super) states: usize,
     pub(super) until: u32,
     pub(super) habit: Arc<Habit>,
+    /// What buds do where they meet something.
+    pub(super) contact: ContactLaws,
     /// The expectation up to the last age, computed at its first use, since there are several uses before the first
     /// tick.
     pub(super) expected: OnceLock<Option<Expectation>>,
@@ -102,6 +106,7 @@ impl Buds {
         response::compile(self, &mut orders, (until.min(LAST_TICK), dates), path, &mut faults);
         let (looks, paints) = look::compile(self, until.min(LAST_TICK), path, &mut faults);
         let wood = wood::compile(self, until.min(LAST_TICK), path, &mut faults);
+        let contact = contact::compile(self, path, &mut faults);
         if !faults.is_empty() {
             faults.sort_by(|a, b| a.path.cmp(&b.path));
             return Err(faults);
@@ -111,7 +116,7 @@ impl Buds {
         }
         let habit = Habit { trends, looks, organ_trends, wood, for_drawing: paints.into_habit() };
         let states = self.states.len().max(1);
-        Ok(BudModel { orders, states, until, habit: Arc::new(habit), expected: OnceLock::new() })
+        Ok(BudModel { orders, states, until, habit: Arc::new(habit), contact, expected: OnceLock::new() })
     }
 
     fn check(&self, until: u32, path: &Path) -> Vec<Fault> {

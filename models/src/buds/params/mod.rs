@@ -9,6 +9,7 @@
 //! Absent on purpose: the effects of the parameters, which are in `compile` and `grow`.
 
 pub(crate) mod colour;
+mod contact;
 mod geometry;
 mod looks;
 mod organs;
@@ -20,6 +21,7 @@ pub use colour::{
     BarkChoice, BarkColours, ColourText, FlowerChoice, FlowerColours, FruitChoice, FruitColours, LeafChoice,
     LeafColours,
 };
+pub use contact::{Answer, Contact};
 pub use geometry::{
     Divergence, Internode, NamedPhyllotaxis, Orientation, Phase, Phyllotaxis, ShapeName, StateTrends, Tended, Trend,
 };
@@ -52,6 +54,9 @@ pub struct Buds {
     /// The wood: secondary growth, weight and bending; left out: laws of age, and the pose at rest.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub wood: Option<Wood>,
+    /// What buds do where they meet an obstacle that blocks, or the ground; left out: they turn along it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub contact: Option<Contact>,
     /// How the buds respond to what the site and its seasons bring, such as nitrogen; in the order in which they act.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub response: Vec<Response>,

@@ -1,0 +1,114 @@
+//! What a bud does where it meets an obstacle that blocks, or the ground.
+//!
+//! De Reffye et al. 1988 §4 name the obstruction "due to fixed obstacles" as what their traversal could not do. A bud
+//! is asked at each clock step whether its cone meets a surface, from where it stands; then it pauses, dies, or makes
+//! its growth unit, of which each internode that would enter a solid is turned along it. A node for which there is no
+//! way is not made: the unit ends before it. Turns are stated as rest frames of the nodes, and those of leaves as
+//! theirs, so the pose, bending and all tables follow; a plant that meets nothing states none and is to the byte the
+//! plant of an open site. Absent: the tip and its way (`around`).
+
+use super::around::{Around, Lie};
+use super::grow::{Axis, Full};
+use super::params::{Answer, ApexEnd};
+use phytomer_sim::plant::{ApexFate, EventKind, NodeId, OrganId, Rest};
+use phytomer_sim::site::Site;
+use phytomer_sim::site::solids::CLEARANCE;
+use phytomer_sim::site::way::Step;
+
+impl<'a> Axis<'a> {
+    /// The axis with what is around its bud.
+    pub fn among(mut self, site: Option<&'a Site>) -> Self {
+        self.around = site.and_then(|site| Around::of(site, self.model.contact, self.plant, self.bud.axis));
+        self
+    }
+
+    /// Asks at a clock step whether the bud meets something.
+    #[inline]
+    pub(super) fn feel(&mut self) {
+        if let Some(around) = &mut self.around {
+            self.contact = u32::from(around.feel());
+        }
+    }
+
+    /// What a bud that is about to grow does where it meets something: `None` where it grows on, else whether it lives.
+    pub(super) fn answer_contact(&mut self) -> Result<Option<bool>, Full> {
+        if self.contact == 0 {
+            return Ok(None);
+        }
+        match self.model.contact.answer {
+            Answer::Pause => {
+                self.note(EventKind::Paused, 1);
+                Ok(Some(true))
+            }
+            Answer::Die => self.obstruct().map(Some),
+            Answer::Deflect | Answer::Fasten => Ok(None),
+        }
+    }
+
+    /// How the next node lies, of the type `short`, at `rank` of its growth unit; `None` where there is no way for it.
+    #[inline]
+    pub(super) fn lie(&mut self, rank: u32, short: bool) -> Option<Lie> {
+        if self.around.is_none() {
+            return Some(Lie::Free);
+        }
+        let (length, trend) = self.next_internode(self.at(rank), short);
+        let left = self.plant.axes.key[self.bud.axis.index()].0 & 1 == 1;
+        let axis = self.bud.axis;
+        let Self { around: Some(around), plant, .. } = self else { return Some(Lie::Free) };
+        let stood = around.ahead;
+        around.ahead.tend(plant, axis, trend);
+        let lie = around.try_next(f64::from(length), left);
+        if lie.is_none() {
+            around.ahead = stood;
+        }
+        lie
+    }
+
+    /// Turns a leaf of the node that is being dressed whose tip would enter a solid at its birth or as it turns with
+    /// age: it then lies along the solid for all its life, its upper side away from it. One for which there is no room
+    /// stays as it is.
+    #[inline]
+    pub(super) fn lay_leaf(&mut self, leaf: OrganId) {
+        let Self { around: Some(around), plant, .. } = self else { return };
+        let length = f64::from(plant.organs.length[leaf.index()]);
+        if around.is_far(length + CLEARANCE) {
+            return;
+        }
+        around.free = 0.0;
+        let (from, up) = (around.tip(), [0.0, 0.0, 1.0]);
+        let headings = around.ahead.headings_of(plant, leaf);
+        let step = |heading| Step { from, heading, up, length, hold: None, left: true };
+        let found = headings.map(|heading| around.solids.way(&step(heading)));
+        if (0..3).any(|k| found[k] != Some(headings[k]))
+            && let Some(heading) = found[2].or(found[0])
+        {
+            let turn = around.ahead.organ_turn(heading, around.outward(length));
+            plant.state_organ(leaf, turn, [0.0; 3]);
+        }
+    }
+
+    /// States the turn of a node that was made.
+    pub(super) fn turn(&mut self, node: NodeId, lie: Lie) {
+        if let Lie::Turned(rotation) = lie {
+            self.plant.state_rest(node, Rest::Turned(rotation));
+        }
+    }
+
+    /// After a growth unit: whether the bud has died since there was no way on.
+    pub(super) fn ends_stuck(&mut self) -> Result<bool, Full> {
+        let stuck = self.around.as_ref().is_some_and(|around| around.stuck);
+        if stuck && self.model.contact.answer == Answer::Die {
+            self.obstruct()?;
+            return Ok(true);
+        }
+        Ok(false)
+    }
+
+    pub(super) fn is_stuck(&self) -> bool {
+        self.around.as_ref().is_some_and(|around| around.stuck)
+    }
+
+    fn obstruct(&mut self) -> Result<bool, Full> {
+        self.end(ApexFate::Obstructed, EventKind::Obstructed, ApexEnd::Death)
+    }
+}
