@@ -11,6 +11,7 @@ pub mod calendar;
 pub mod calendars;
 pub mod date;
 pub mod degree_days;
+pub mod light;
 pub mod sun;
 
 use crate::cells::Cells;
