@@ -174,6 +174,7 @@ pub fn plan(plots: u32, plots_per_part: u32) -> RunPlan {
         compression_level: 1,
         precision_m: None,
         mechanics: false,
+        light: false,
         calendars: vec![Calendars::default()],
         species_of_models: Vec::new(),
         ground_areas_m2: vec![Some(6.25)],

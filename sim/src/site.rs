@@ -1,10 +1,10 @@
 //! The site around the plants of a plot: what its date brings, its fields of force, and what it feeds back to growth.
 //!
 //! At each tick the site reads all plants as they stood at the end of the last one, the plants grow side by side and
-//! see the site unchanged ([`View`]), and what they did is gathered in the order of the plot. So no result depends on
-//! the threads. Two things feed back today: obstacles, shapes that kill the buds that are in them or out of them, and
-//! cells of space that plants claim in the first half of a tick and are granted or refused in the second. Light and
-//! events of the date belong here. What the date alone decides is the [`calendar`], made of [`date`], [`sun`] and
+//! see the site unchanged ([`View`]), and what they did is gathered in the order of the plot. So no result depends
+//! on the threads. Three things feed back today: light, which buds read; obstacles, shapes that kill the buds that
+//! are in them or out of them, and cells of space that plants claim in the first half of a tick and are granted or
+//! refused in the second. What the date alone decides is the [`calendar`], made of [`date`], [`sun`] and
 //! [`degree_days`]; replicates may have [`calendars`] of their own.
 
 pub mod calendar;
@@ -20,6 +20,7 @@ use crate::math::{pow, sincos};
 use crate::plant::Drag;
 use crate::shape::Shape;
 use crate::vector::Vector;
+use light::Light;
 use std::sync::Arc;
 
 /// The acceleration of gravity by convention, m/s².
@@ -41,6 +42,8 @@ pub struct Site {
     pub obstacles: Vec<Obstacle>,
     /// The cells of space that plants claim, where they do.
     pub cells: Cells,
+    /// The light in the plot, where something asks for it.
+    pub light: Option<Light>,
 }
 
 /// A shape in the plot that kills buds: a roof, a wall, a mown height, a form that is clipped all the time.
@@ -110,6 +113,7 @@ impl Default for Site {
             wind: Wind::default(),
             obstacles: Vec::new(),
             cells: Cells::default(),
+            light: None,
         }
     }
 }
@@ -124,11 +128,14 @@ impl Site {
     pub fn restart(&mut self) {
         self.tick = 0;
         self.cells.clear();
+        if let Some(light) = &mut self.light {
+            light.found = None;
+        }
     }
 
     /// Whether growth depends on what stands around the plants, so that it must follow the clock.
     pub fn feeds_back(&self) -> bool {
-        self.cells.shared || self.sees_buds()
+        self.cells.shared || self.sees_buds() || self.light.as_ref().is_some_and(|light| light.felt)
     }
 
     /// Whether growth depends on where buds stand, so that plants must be posed at every tick.
@@ -145,7 +152,8 @@ impl Site {
     pub fn moved(&self, by: [f64; 3]) -> Self {
         let moved = |obstacle: &Obstacle| Obstacle { shape: Arc::new(obstacle.shape.moved(by)), ..*obstacle };
         let obstacles = self.obstacles.iter().map(moved).collect();
-        Self { obstacles, cells: self.cells.moved(by), ..self.clone() }
+        let light = self.light.as_ref().map(|light| light.moved(by));
+        Self { obstacles, cells: self.cells.moved(by), light, ..self.clone() }
     }
 
     /// Gravity, and the drag of the wind: ½ ρ C_d U² a square metre with C_d = c U⁻ⁿ.

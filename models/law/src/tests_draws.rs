@@ -12,8 +12,18 @@ use super::*;
 use crate::fault::Fault;
 
 const ANY: ValueRange = ValueRange { min: f64::NEG_INFINITY, max: f64::INFINITY, what: "a number" };
-const HERE: At =
-    At { age: 10, dimension: 5, cycle: 4, rank: 3, bud_birth: 9, bud_dimension: 4, unit: 4, height: 0, state: 1 };
+const HERE: At = At {
+    age: 10,
+    dimension: 5,
+    cycle: 4,
+    rank: 3,
+    bud_birth: 9,
+    bud_dimension: 4,
+    unit: 4,
+    height: 0,
+    shade: 0,
+    state: 1,
+};
 
 fn count(given: Result<Count, impl std::fmt::Debug>) -> CountTable {
     given.expect("reads").compile(&domain(), &root()).expect("compiles")

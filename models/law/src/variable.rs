@@ -7,7 +7,8 @@
 //! move with every tick. For a node that is being made both meanings agree, because it is born at that tick.
 //!
 //! `nitrogen`, `degree_days`, `degree_days_per_day`, `day_length_h` and `date` are known where the scenario has a
-//! calendar that tells them, at the tick of the draw (`dates`). Where a law names `height_m` growth goes tick by tick.
+//! calendar that tells them, at the tick of the draw (`dates`). Where a law names `height_m`, or
+//! `light` in a scenario with `[light]`, growth goes tick by tick.
 
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::{Deserialize, Serialize};
@@ -36,6 +37,8 @@ pub enum Variable {
     Unit,
     /// The height of the plant at the end of the last tick, metres.
     HeightM,
+    /// The share of the light of open ground that reached the bud at the end of the last tick, from 0 to 1.
+    Light,
     /// The nitrogen of the season, kg/ha: the soil's own supply and what was applied since the season began.
     Nitrogen,
     /// Degree-days since the plant was sown, °C d.
@@ -50,7 +53,7 @@ pub enum Variable {
 
 impl Variable {
     /// Every variable, in the order of the lists that people see.
-    pub const ALL: [Self; 13] = [
+    pub const ALL: [Self; 14] = [
         Self::Age,
         Self::Dimension,
         Self::Cycle,
@@ -59,6 +62,7 @@ impl Variable {
         Self::BudDimension,
         Self::Unit,
         Self::HeightM,
+        Self::Light,
         Self::Nitrogen,
         Self::DegreeDays,
         Self::DegreeDaysPerDay,
@@ -81,6 +85,7 @@ impl Variable {
             Self::BudDimension => "bud_dimension",
             Self::Unit => "unit",
             Self::HeightM => "height_m",
+            Self::Light => "light",
             Self::Nitrogen => "nitrogen",
             Self::DegreeDays => "degree_days",
             Self::DegreeDaysPerDay => "degree_days_per_day",
@@ -110,6 +115,10 @@ impl Variable {
             Self::HeightM => {
                 "the height of the plant at the end of the last tick, metres, in steps of 5 cm: that of the highest tip of \
                  an internode above the seed"
+            }
+            Self::Light => {
+                "the share of the light of open ground that reached the bud at the end of the last tick, from 0 to 1, in \
+                 steps of 0.01; 1 where the scenario has no `[light]`"
             }
             Self::Nitrogen => {
                 "the nitrogen of the season, kg/ha: the soil's own supply and what was applied since the season began"
@@ -145,7 +154,7 @@ impl Variable {
 
     /// Whether the range of the variable is longer in a longer run.
     pub const fn goes_on_with_time(self) -> bool {
-        !matches!(self, Self::Rank)
+        !matches!(self, Self::Rank | Self::Light)
     }
 }
 
@@ -179,7 +188,8 @@ pub enum Asked {
     /// For a thing whose laws depend on its own age alone, as `dimension` and `cycle`: how an organ expands and turns,
     /// the stiffness and density of wood.
     OwnAge,
-    /// For a response of the buds of a plant to what the date brings: the age of the plant.
+    /// For a response of the buds of a plant to what the site brings: the age of the plant, which decides the date, or
+    /// the light of the bud.
     Response,
     /// For a plant, for quantities that it draws once: no variable.
     Once,
@@ -188,11 +198,12 @@ pub enum Asked {
 impl Asked {
     /// Whether a law for this purpose may depend on `variable`; `has_ranks` tells whether nodes have ranks there.
     pub(super) fn knows(self, variable: Variable, has_ranks: bool) -> bool {
-        use Variable::{Age, Cycle, Dimension, Rank};
+        use Variable::{Age, Cycle, Dimension, Light, Rank};
         match self {
             _ if variable.is_of_the_date() => self.knows(Age, has_ranks),
             Self::Bud => variable != Rank || has_ranks,
-            Self::Birth | Self::Response => variable == Age,
+            Self::Birth => variable == Age,
+            Self::Response => matches!(variable, Age | Light),
             Self::Internode => matches!(variable, Age | Dimension | Cycle),
             Self::OwnAge => matches!(variable, Dimension | Cycle),
             Self::Once => false,
@@ -224,7 +235,7 @@ impl Asked {
                 ("which is the plant's age and not known here", "`dimension`, its own age in ticks")
             }
             Self::OwnAge => ("which is not known here", "`dimension`, its own age in ticks"),
-            Self::Response => ("on which no response can depend", "a variable of the date, or `age`"),
+            Self::Response => ("on which no response can depend", "a variable of the date, `light`, or `age`"),
             Self::Once => ("which does not apply here", "a number, or a formula without variables"),
         };
         Fault::new(path, format!("the law depends on {what}, {why}"), expected)

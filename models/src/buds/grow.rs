@@ -29,6 +29,8 @@ pub(super) struct Axis<'a> {
     dimension: u32,
     /// The height of the plant, in the steps in which laws know it; 0 where none asks.
     height: u32,
+    /// What the bud lacks of full light, in the steps in which laws know it; 0 where none asks.
+    shade: u32,
     speed: Speed,
     /// The growth units after which the apex ends.
     last_unit: u32,
@@ -49,6 +51,8 @@ impl<'a> Axis<'a> {
         let laws = model.laws(plant.axes.order[bud.axis.index()]);
         words.of(laws);
         let height = if laws.asks_height { height_in_steps(f64::from(plant.height)) } else { 0 };
+        let shade = if laws.asks_light { plant.shade.of(bud.axis) } else { 0 };
+        words.shaded = shade > 0;
         let mut axis = Self {
             model,
             laws,
@@ -58,6 +62,7 @@ impl<'a> Axis<'a> {
             tick: bud.age,
             dimension: 0,
             height,
+            shade,
             speed: Speed::ONE,
             last_unit: u32::MAX,
             leads: false,
@@ -125,8 +130,8 @@ impl<'a> Axis<'a> {
     pub fn at(&self, rank: u32) -> At {
         let ApicalBud { cycle, units: unit, birth: bud_birth, state, .. } = self.bud;
         let bud_dimension = bud_birth.saturating_sub(self.birth);
-        let height = self.height;
-        At { age: self.tick, dimension: self.dimension, cycle, rank, bud_birth, bud_dimension, unit, height, state }
+        let (height, shade, dimension) = (self.height, self.shade, self.dimension);
+        At { age: self.tick, dimension, cycle, rank, bud_birth, bud_dimension, unit, height, shade, state }
     }
 
     /// One clock step of the apical bud; false where it ended.
@@ -136,6 +141,11 @@ impl<'a> Axis<'a> {
         let laws = &self.laws.step;
         let at = self.at(0);
         if laws.death.happens(&self.words.step, 0, at) {
+            // A bud that would have lived in full light dies of shade.
+            let in_light = At { shade: 0, ..at };
+            if at.shade > 0 && !laws.death.happens(&self.words.step, 0, in_light) {
+                return self.end(ApexFate::Shaded, EventKind::Shaded, ApexEnd::Death);
+            }
             return self.end(ApexFate::Died, EventKind::Died, ApexEnd::Death);
         }
         if self.plant.exposure.is_some() && self.is_attacked(at) {

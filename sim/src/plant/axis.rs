@@ -67,6 +67,8 @@ pub enum ApexFate {
     Attacked = 7,
     /// The rules of its model replaced it by something else, or by nothing.
     Rewritten = 8,
+    /// It died for want of light.
+    Shaded = 9,
 }
 
 impl ApexFate {
@@ -82,6 +84,7 @@ impl ApexFate {
             Self::Harvested => Cause::Harvested,
             Self::Attacked => Cause::Attacked,
             Self::Rewritten => Cause::Rewritten,
+            Self::Shaded => Cause::Shaded,
         }
     }
 }

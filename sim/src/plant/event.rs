@@ -48,11 +48,13 @@ pub enum EventKind {
     /// The rules of the model replaced internodes of the axis, its bud or organs that it bore by something else, or by
     /// nothing; `count` is their number.
     Rewritten = 17,
+    /// The bud died for want of light.
+    Shaded = 18,
 }
 
 impl EventKind {
     /// Every kind, in the order of their numbers.
-    pub const ALL: [Self; 18] = [
+    pub const ALL: [Self; 19] = [
         Self::Grew,
         Self::Paused,
         Self::Died,
@@ -71,6 +73,7 @@ impl EventKind {
         Self::Thinned,
         Self::Attacked,
         Self::Rewritten,
+        Self::Shaded,
     ];
 
     /// The event as it stands in tables.
@@ -94,6 +97,7 @@ impl EventKind {
             Self::Thinned => "thinned",
             Self::Attacked => "attacked",
             Self::Rewritten => "rewritten",
+            Self::Shaded => "shaded",
         }
     }
 }

@@ -202,11 +202,13 @@ pub enum Cause {
     Attacked = 11,
     /// The rules of its model replaced it by something else, or by nothing.
     Rewritten = 12,
+    /// It died for want of light.
+    Shaded = 13,
 }
 
 impl Cause {
     /// Every cause of an end, in the order of their numbers.
-    pub const ALL: [Self; 12] = [
+    pub const ALL: [Self; 13] = [
         Self::Mortality,
         Self::Flowered,
         Self::Completed,
@@ -219,6 +221,7 @@ impl Cause {
         Self::Harvested,
         Self::Attacked,
         Self::Rewritten,
+        Self::Shaded,
     ];
 
     /// The cause as it stands in tables; `None` for a living component.
@@ -237,6 +240,7 @@ impl Cause {
             Self::Harvested => "harvested",
             Self::Attacked => "attacked",
             Self::Rewritten => "rewritten",
+            Self::Shaded => "shaded",
         })
     }
 }

@@ -7,7 +7,6 @@
 
 use crate::clock::Tick;
 use crate::plant::{AxisId, Frame, NodeId, OrganId, Plant};
-use crate::plot::Member;
 use crate::pose::{bud_frame, organ_frame};
 use crate::shape::Point;
 use std::f64::consts::FRAC_PI_2;
@@ -40,10 +39,8 @@ pub trait Canopy: Sync {
 pub struct Standing<'a> {
     /// The plants, posed.
     pub plants: &'a [Plant],
-    /// What each is in the plot.
-    pub members: &'a [Member],
-    /// The tick of the plot.
-    pub tick: Tick,
+    /// The age of each; `None` of one that is not sown yet.
+    pub ages: &'a [Option<Tick>],
     /// Whether wood keeps light.
     pub wood: bool,
     /// Of each plant whether the light of its buds is wanted.
@@ -52,7 +49,7 @@ pub struct Standing<'a> {
 
 impl Standing<'_> {
     fn age_of(&self, plant: usize) -> Option<Tick> {
-        self.members[plant].age_at(self.tick)
+        self.ages.get(plant).copied().flatten()
     }
 }
 

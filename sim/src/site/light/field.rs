@@ -108,20 +108,15 @@ impl Field {
         self.balance = self.balance.with(Balance { sent, kept, stopped, passed });
     }
 
-    /// Finds the light in the middle of each voxel that the beams of a source have missed.
+    /// Finds the light in the middle of each voxel that is wanted and that the beams of a source have missed.
     fn fill_missed(&self, shone: &mut Shone, extinction: &[f64], shadows: &Shadows, source: &Source) {
         for (index, sums) in shone.along.iter_mut().enumerate().filter(|(_, sums)| sums[1] == 0.0) {
-            if self.grid.repeats() && !self.is_in_plot(index) {
+            if !self.grid.is_wanted(index) {
                 continue;
             }
             let share = share_of(&self.grid, extinction, shadows, (self.middle(index), source));
             *sums = [share * NO_WAY, NO_WAY];
         }
-    }
-
-    fn is_in_plot(&self, index: usize) -> bool {
-        let voxel = self.voxel_of(index);
-        (0..2).all(|k| (0..self.grid.period[k]).contains(&voxel[k]))
     }
 
     fn voxel_of(&self, index: usize) -> [i32; 3] {
@@ -194,8 +189,8 @@ fn share_of(grid: &Grid, extinction: &[f64], shadows: &Shadows, (place, source):
 impl Lit for Field {
     fn share_at(&self, place: Point) -> f64 {
         match self.grid.index(self.grid.within(self.grid.voxel(place))) {
-            Some(index) => self.light[index],
-            None => self.share_by_rays(place),
+            Some(index) if self.grid.is_wanted(index) => self.light[index],
+            _ => self.share_by_rays(place),
         }
     }
 

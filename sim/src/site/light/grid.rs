@@ -16,6 +16,8 @@ pub const BITS: u32 = 3;
 pub const EDGE: i32 = 1 << BITS;
 /// The voxels of a brick.
 pub const VOXELS: usize = 1 << (3 * BITS);
+/// The words of marks of a brick.
+const WORDS: usize = VOXELS / 64;
 /// The units of area in a m².
 pub const UNITS: f64 = 4_294_967_296.0;
 /// The farthest brick from the corner of the plot, along each axis.
@@ -46,6 +48,11 @@ pub struct Grid {
     pub saturated: bool,
     keeps_normals: bool,
     table: Vec<u32>,
+    /// The least and the largest places of bricks.
+    least: [i32; 3],
+    most: [i32; 3],
+    /// Of each voxel, one bit a voxel, whether its light is wanted where it has no leaves.
+    marked: Vec<u64>,
 }
 
 impl Grid {
@@ -69,6 +76,9 @@ impl Grid {
             saturated: false,
             keeps_normals: lighting.projection == Projection::OfLeaves,
             table: vec![NONE; 64],
+            least: [i32::MAX; 3],
+            most: [i32::MIN; 3],
+            marked: Vec::new(),
         }
     }
 
@@ -127,13 +137,22 @@ impl Grid {
 
     /// Makes the voxel of a place, so that its light is found.
     pub fn mark(&mut self, place: Point) {
-        self.make(self.within(self.voxel(place)));
+        let index = self.make(self.within(self.voxel(place)));
+        self.marked[index / 64] |= 1 << (index % 64);
+    }
+
+    /// Whether the light of a voxel is wanted: it has leaves, or has been marked.
+    pub fn is_wanted(&self, index: usize) -> bool {
+        self.area[index] > 0 || self.marked[index / 64] & (1 << (index % 64)) != 0
     }
 
     /// Adds all of another grid of the same plot.
     pub fn join(&mut self, other: &Self) {
         for (brick, place) in other.bricks.iter().enumerate() {
             let (to, from) = (self.make(place.map(|x| x << BITS)), brick * VOXELS);
+            for word in 0..WORDS {
+                self.marked[to / 64 + word] |= other.marked[from / 64 + word];
+            }
             for voxel in 0..VOXELS {
                 if other.area[from + voxel] == 0 {
                     continue;
@@ -169,6 +188,9 @@ impl Grid {
             brick = self.bricks.len() as u32;
             self.bricks.push(place);
             self.area.resize(self.area.len() + VOXELS, 0);
+            self.marked.resize(self.marked.len() + WORDS, 0);
+            self.least = [0, 1, 2].map(|k| self.least[k].min(place[k]));
+            self.most = [0, 1, 2].map(|k| self.most[k].max(place[k]));
             if self.keeps_normals {
                 self.by_normal.resize(self.by_normal.len() + VOXELS * CLASSES, 0);
             }
@@ -206,6 +228,7 @@ impl Grid {
             order.iter().flat_map(|&brick| from[brick * each..(brick + 1) * each].iter().copied()).collect()
         };
         (self.area, self.by_normal) = (sorted(&self.area, VOXELS), sorted(&self.by_normal, VOXELS * CLASSES));
+        self.marked = sorted(&self.marked, WORDS);
         self.bricks = order.iter().map(|&brick| self.bricks[brick]).collect();
         self.table = vec![NONE; (self.bricks.len() * 4).next_power_of_two().max(64)];
         (0..self.bricks.len() as u32).for_each(|brick| self.place_in_table(brick));
@@ -218,13 +241,11 @@ impl Grid {
 
     /// The low and the high corner of all bricks, metres; `None` where there is none.
     pub fn bounds(&self) -> Option<[Point; 2]> {
-        let side = |k: usize| {
-            let of_bricks = || self.bricks.iter().map(|place| place[k]);
-            let metres = |brick: i32| self.origin[k] + f64::from(brick << BITS) * self.edges[k];
-            Some([metres(of_bricks().min()?), metres(of_bricks().max()? + 1)])
-        };
-        let sides = [side(0)?, side(1)?, side(2)?];
-        Some([0, 1].map(|end| sides.map(|side| side[end])))
+        if self.bricks.is_empty() {
+            return None;
+        }
+        let at = |brick: [i32; 3]| [0, 1, 2].map(|k| self.origin[k] + f64::from(brick[k] << BITS) * self.edges[k]);
+        Some([at(self.least), at(self.most.map(|x| x + 1))])
     }
 }
 

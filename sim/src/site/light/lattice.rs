@@ -141,8 +141,8 @@ mod tests {
     use super::*;
     use crate::site::light::{Borders, Lighting, Piece, Sky};
 
-    /// The beams of each direction that pass a lone brick carry the area that it turns to them, and they miss nothing of
-    /// it.
+    /// The beams of each direction that pass a lone brick carry the area that it turns to them, and they miss nothing
+    /// of it.
     #[test]
     fn beams_cover_what_they_may_meet() {
         let mut grid = Grid::of(&Lighting::default());
@@ -156,7 +156,8 @@ mod tests {
                 let back = crate::site::light::shadow::passage(&bounds, beam.from, source.towards, f64::INFINITY);
                 if met.is_some() || back.is_some() {
                     area += beam.section;
-                    let reaches = |t: f64| beam.stretches.iter().any(|[from, to]| from - 1e-3 <= t && t <= to + 1e-3);
+                    let holds = |t: f64, [from, to]: &[f64; 2]| from - 1e-3 <= t && t <= to + 1e-3;
+                    let reaches = |t: f64| beam.stretches.iter().any(|stretch| holds(t, stretch));
                     let ends = met.map(|(_, leaves)| leaves).or(back.map(|(_, leaves)| -leaves));
                     assert!(ends.is_some_and(reaches), "{beam:?}");
                 }

@@ -1,11 +1,12 @@
 //! Light in a plot: how much of the light of open ground reaches each place, and what leaves, wood and obstacles keep.
 //!
-//! Leaf area fills small boxes of space ([`grid`]); parallel beams from the sky and the sun cross them ([`beam`]), and a
-//! box keeps I · (1 − e^(−G a l)) of a beam of the intensity I, where a is the leaf area in a m³ of the box, l the way
-//! of the beam in it and G the share of leaf area that the beam meets (Sinoquet et al. 2001, *Plant, Cell &
+//! Leaf area fills small boxes of space ([`grid`]); parallel beams from the sky and the sun cross them ([`beam`]),
+//! and a box keeps I · (1 − e^(−G a l)) of a beam of the intensity I, where a is the leaf area in a m³ of the box, l
+//! the way of the beam in it and G the share of leaf area that the beam meets (Sinoquet et al. 2001, *Plant, Cell &
 //! Environment* 24: 395–406, the model RATP; paths in boxes by Amanatides & Woo 1987, *Eurographics*: 3–10). Shapes
 //! that are opaque stop a beam at their surface ([`shadow`]). What lights a plot is a list of [`Source`]s ([`sky`],
-//! [`sun`]). A [`LightModel`] makes of a [`Canopy`] and its sources a [`Lit`] plot, which buds, tables and tests ask.
+//! [`sun`]). A [`LightModel`] makes of a [`Canopy`] and its sources a [`Lit`] plot, which buds, tables and tests
+//! ask.
 //!
 //! Light is told as a share of that on open, level ground; amounts are m² of open ground that would catch as much.
 //! Absent: light that leaves scatter, colours of light, photosynthesis.
@@ -115,6 +116,31 @@ impl Lighting {
             Some(sun) => sun.with_sky(&self.sky, tick),
             None => self.sky.sources(),
         }
+    }
+}
+
+/// The light of a plot: how it is lit, who asks, and what was found at the end of the last tick.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Light {
+    /// How the plot is lit.
+    pub lighting: Lighting,
+    /// Whether buds of some member read it, so that growth must follow the clock.
+    pub felt: bool,
+    /// Whether it is recorded: then it is found whenever the plants stand.
+    pub told: bool,
+    /// What was found when the plants last stood.
+    pub found: Option<Arc<Field>>,
+}
+
+impl Light {
+    /// The light of a plot before its first tick, which nobody asks for yet.
+    pub fn of(lighting: Lighting) -> Self {
+        Self { lighting, felt: false, told: false, found: None }
+    }
+
+    /// That of a plot at another place, `by` metres farther.
+    pub fn moved(&self, by: Point) -> Self {
+        Self { lighting: self.lighting.moved(by), found: None, ..*self }
     }
 }
 

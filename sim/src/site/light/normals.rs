@@ -1,10 +1,10 @@
 //! Where leaves face: the leaf area of a box by the direction of its normal, in sixteen classes.
 //!
-//! The classes are the axes through the corners and the faces of an icosahedron that stands on a corner: six and ten.
-//! A leaf belongs to the axis nearest to its normal, whichever side it turns to it, and a beam meets |c · d| of its
-//! area, c the axis and d the beam. So level leaves are met exactly; a single leaf is off by at most 23° in its normal,
-//! and the G of leaves of all inclinations by at most 4 %. Absent: a G that is the same in all directions, which needs no
-//! classes.
+//! The classes are the axes through the corners and the faces of an icosahedron that stands on a corner: six and
+//! ten. A leaf belongs to the axis nearest to its normal, whichever side it turns to it, and a beam meets |c · d| of
+//! its area, c the axis and d the beam. So level leaves are met exactly; a single leaf is off by at most 23° in its
+//! normal, and the G of leaves of all inclinations by at most 4 %. Absent: a G that is the same in all directions,
+//! which needs no classes.
 
 use crate::math::sincos;
 use std::f64::consts::PI;

@@ -1,10 +1,10 @@
 //! The sun along its path, beside the light of the sky.
 //!
-//! The path of a tick is that of the day in its middle: the sun stands at the nodes of a quadrature between sunrise and
-//! sunset, and lights level ground by the sine of its elevation. The share of the sky in the light of a day follows from
-//! the share of the radiation above the atmosphere that reaches the ground (Spitters, Toussaint & Goudriaan 1986,
-//! *Agricultural and Forest Meteorology* 38: 217–229, eq. 2, the relation of de Jong 1980), or is stated. Absent:
-//! clouds that come and go within a day.
+//! The path of a tick is that of the day in its middle: the sun stands at the nodes of a quadrature between sunrise
+//! and sunset, and lights level ground by the sine of its elevation. The share of the sky in the light of a day
+//! follows from the share of the radiation above the atmosphere that reaches the ground (Spitters, Toussaint &
+//! Goudriaan 1986, *Agricultural and Forest Meteorology* 38: 217–229, the relation of de Jong 1980 for days), or is
+//! stated. Absent: clouds that come and go within a day.
 
 use super::Source;
 use super::sky::{Sky, gauss_legendre};
@@ -57,7 +57,7 @@ pub fn places(latitude: f64, date: Date, count: u32) -> Vec<Source> {
 }
 
 /// The share of the sky in the radiation of a day, by the share of the radiation above the atmosphere that reaches the
-/// ground (Spitters et al. 1986, eq. 2).
+/// ground (Spitters et al. 1986).
 pub fn share_of_sky(transmission: f64) -> f64 {
     match transmission {
         t if t < 0.07 => 1.0,
