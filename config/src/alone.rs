@@ -43,6 +43,7 @@ impl ResolvedSpecies {
             planting: Planting::default(),
             experiment: Experiment::default(),
             site: Site::default(),
+            light: None,
             define: BTreeMap::new(),
             member: Vec::new(),
             stand: None,

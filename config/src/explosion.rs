@@ -42,8 +42,9 @@ pub(crate) fn fault_of(
 }
 
 /// The last age of a cohort of the trial, by its index, up to which its model alone decides how it grows in some
-/// treatment: a pest may keep a plant small from the first tick on, obstacles that block too, and a cut from its tick
-/// on. `None` where there is no such age.
+/// treatment: a pest, or shade, may keep a plant small from the first tick on, obstacles that block too, and a cut from its tick
+/// on. `None`
+/// where there is no such age.
 pub(crate) fn foreseen_until(trial: &Trial, cohort: usize) -> Option<u32> {
     let Cohort { species, until, .. } = trial.cohorts().get(cohort)?;
     let of_treatment = |(place, treatment): (usize, &Treatment)| {
@@ -51,9 +52,9 @@ pub(crate) fn foreseen_until(trial: &Trial, cohort: usize) -> Option<u32> {
         let own = treatment.species.iter().position(|known| known == species)?;
         let last = treatment.scenario.last_age_of_species(own).min(*until);
         let uncut = trial.first_cut(place).map_or(last, |first| last.min(first.saturating_sub(1)));
-        Some(uncut).filter(|uncut| {
-            *uncut > 0 && treatment.scenario.pest.is_empty() && !treatment.scenario.site.blocks_shoots()
-        })
+        let scenario = &treatment.scenario;
+        let alone = scenario.pest.is_empty() && scenario.light.is_none() && !scenario.site.blocks_shoots();
+        Some(uncut).filter(|uncut| *uncut > 0 && alone)
     };
     trial.treatments().iter().enumerate().filter_map(of_treatment).max()
 }

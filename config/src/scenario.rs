@@ -10,6 +10,7 @@ mod events;
 pub mod experiment;
 mod field_plot;
 pub(crate) mod icasa;
+mod light;
 mod member;
 mod meshes;
 mod pests;
@@ -25,6 +26,7 @@ pub use calendar::{Calendar, Fertilizer, Soil, TickLength};
 pub use events::{Event, Work};
 pub use experiment::{Design, Experiment};
 pub use field_plot::FieldPlot;
+pub use light::Light;
 pub use member::Member;
 pub use meshes::{MeshAges, MeshAgesWord, MeshFile, MeshPlants, Meshes};
 pub use pests::{Attacked, Clustered, Host, Larvae, Pest, exposure};
@@ -90,6 +92,9 @@ pub struct Scenario {
     /// External influences on the plants: gravity, wind, and shapes that kill buds.
     #[serde(default, skip_serializing_if = "Site::is_default")]
     pub site: Site,
+    /// The light in the plots. Without it every bud has full light.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub light: Option<Light>,
     /// Constants of the species whose model is an L-system of a file, as `[define]`: they take the place of those that
     /// the species states, and each of these species must have a constant of the name. None if not given.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
@@ -264,6 +269,10 @@ pub struct Output {
     /// Whether `records` has the columns of mechanics: wood volume, fresh mass, curvature and bending moment.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub mechanics: bool,
+    /// Whether tables have the columns of light: `light` in `records`, `intercepted_light_m2` and `light_competition`
+    /// in `summary`, `leaf_area_index` and `ground_light` in `site`.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub light: bool,
 }
 
 /// The compression of the tables.
@@ -331,6 +340,7 @@ impl Scenario {
         self.check_events(&shapes, &mut faults);
         self.check_calendar(&mut faults);
         self.check_constants(&mut faults);
+        self.check_light(&mut faults);
         if let Some(experiment) = experiment {
             self.check_years(experiment, &mut faults);
             self.check_blocks(experiment, &mut faults);

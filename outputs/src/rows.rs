@@ -94,7 +94,7 @@ pub fn poses_of(plot: &Plot, at: usize, tick: Tick) -> Result<Vec<PoseRow>, Tabl
     index.read(plant)?;
     index.find_tips(plant, age);
     let (mut columns, mut numbers, mut rows) = (RecordColumns::default(), Vec::new(), Vec::new());
-    let shown = PlantAtAge { of, plant, index: &index, age, mechanics: true };
+    let shown = PlantAtAge { of, plant, index: &index, age, mechanics: true, lit: None };
     let mut next = 0;
     while next < index.len() {
         index.select(age, usize::MAX, &mut next, &mut numbers);

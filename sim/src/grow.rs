@@ -83,7 +83,7 @@ fn follow_ticks(
             return Ok(Ending::Overgrown { age: tick, limit });
         }
         let wanted = recorder.wants(tick);
-        if wanted || (tick > 0 && plot.is_looked_at()) {
+        if wanted || (plot.is_looked_at() && (tick > 0 || plot.feels_light())) {
             plot.stand(tick);
         }
         if wanted {
@@ -151,7 +151,8 @@ impl Plot<'_> {
         claimed.collect()
     }
 
-    /// Gives each internode of all members its diameter and its place at `tick`.
+    /// Gives each internode of all members its diameter and its place at `tick`, and finds their light where something
+    /// asks for it.
     pub fn stand(&mut self, tick: Tick) {
         let Self { species, plants, members, site, .. } = self;
         let one = |(plant, member): (&mut Plant, &Member)| {
@@ -163,12 +164,13 @@ impl Plot<'_> {
             ([plant], [member]) => one((plant, member)),
             (plants, members) => plants.par_iter_mut().zip(members).for_each(one),
         }
+        self.shine(tick);
     }
 
     /// Whether plants must stand at every tick: wood remembers its shape, the site sees where buds are, or growth
-    /// depends on the height.
+    /// depends on the height or on light.
     pub(crate) fn is_looked_at(&self) -> bool {
-        self.remembers() || self.site.sees_buds() || self.sees_heights()
+        self.remembers() || self.site.sees_buds() || self.sees_heights() || self.feels_light()
     }
 
     /// Whether the growth of a member depends on its height.

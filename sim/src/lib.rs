@@ -9,6 +9,7 @@ pub mod expectation;
 pub mod grow;
 pub mod gusts;
 pub mod key;
+mod lit;
 mod managed;
 pub mod management;
 pub mod math;

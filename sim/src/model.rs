@@ -104,6 +104,12 @@ pub trait Grow: Send + Sync {
         false
     }
 
+    /// Whether growth depends on the light of buds at the end of the last tick ([`Plant::shade`]). In a site that tells
+    /// it the plant then grows tick by tick, and stands at each.
+    fn sees_light(&self) -> bool {
+        false
+    }
+
     /// Writes the diameters of each internode as they are at `age`, by the model's law; where the species states
     /// another rule of secondary growth, the loop applies that one after it.
     fn thicken(&self, age: Tick, plant: &mut Plant);
@@ -181,6 +187,8 @@ pub trait GrowthModel: Send + Sync {
 
     fn sees_height(&self) -> bool;
 
+    fn sees_light(&self) -> bool;
+
     fn thicken(&self, age: Tick, plant: &mut Plant);
 
     fn cell_m(&self) -> Option<f64>;
@@ -232,6 +240,10 @@ impl<M: Grow> GrowthModel for M {
 
     fn sees_height(&self) -> bool {
         Grow::sees_height(self)
+    }
+
+    fn sees_light(&self) -> bool {
+        Grow::sees_light(self)
     }
 
     fn thicken(&self, age: Tick, plant: &mut Plant) {

@@ -2,16 +2,17 @@
 //!
 //! At each tick the site reads all plants as they stood at the end of the last one, the plants grow side by side and
 //! see the site unchanged ([`View`]), and what they did is gathered in the order of the plot. So no result depends on
-//! the threads. Two things feed back today: obstacles, shapes that kill the buds that are in them or out of them, or
-//! that shoots meet ([`solids`], with the ground, and the [`way`] past them), and cells of space that plants claim in
-//! the first half of a tick and are granted or refused in the second. Light and events of the date belong here. What
-//! the date alone decides is the [`calendar`], made of [`date`], [`sun`] and
+//! the threads. Three things feed back today: light, which buds read; obstacles, shapes that kill the buds that are in
+//! them or out of them, or that shoots meet ([`solids`], with the ground, and the [`way`] past them); and cells of space
+//! that plants claim in the first half of a tick and are granted or refused in the second. What the date alone decides
+//! is the [`calendar`], made of [`date`], [`sun`] and
 //! [`degree_days`]; replicates may have [`calendars`] of their own.
 
 pub mod calendar;
 pub mod calendars;
 pub mod date;
 pub mod degree_days;
+pub mod light;
 pub mod solids;
 pub mod sun;
 pub mod way;
@@ -22,6 +23,7 @@ use crate::math::{pow, sincos};
 use crate::plant::Drag;
 use crate::shape::Shape;
 use crate::vector::Vector;
+use light::Light;
 use solids::Solids;
 use std::sync::{Arc, OnceLock};
 
@@ -48,6 +50,8 @@ pub struct Site {
     pub made_solids: OnceLock<Arc<Solids>>,
     /// The cells of space that plants claim, where they do.
     pub cells: Cells,
+    /// The light in the plot, where something asks for it.
+    pub light: Option<Light>,
 }
 
 /// A shape in the plot that kills buds or blocks their way: a roof, a wall, a mown height, a form that is clipped all
@@ -140,6 +144,7 @@ impl Default for Site {
             ground: None,
             made_solids: OnceLock::new(),
             cells: Cells::default(),
+            light: None,
         }
     }
 }
@@ -154,11 +159,14 @@ impl Site {
     pub fn restart(&mut self) {
         self.tick = 0;
         self.cells.clear();
+        if let Some(light) = &mut self.light {
+            light.found = None;
+        }
     }
 
     /// Whether growth depends on what stands around the plants, so that it must follow the clock.
     pub fn feeds_back(&self) -> bool {
-        self.cells.shared || self.sees_buds()
+        self.cells.shared || self.sees_buds() || self.light.as_ref().is_some_and(|light| light.felt)
     }
 
     /// Whether growth depends on where buds stand, so that plants must be posed at every tick.
@@ -186,7 +194,9 @@ impl Site {
         let moved = |obstacle: &Obstacle| Obstacle { shape: Arc::new(obstacle.shape.moved(by)), ..*obstacle };
         let obstacles = self.obstacles.iter().map(moved).collect();
         let ground = self.ground.map(|height| height + by[2]);
-        Self { obstacles, ground, cells: self.cells.moved(by), made_solids: OnceLock::new(), ..self.clone() }
+        let light = self.light.as_ref().map(|light| light.moved(by));
+        let cells = self.cells.moved(by);
+        Self { obstacles, ground, cells, light, made_solids: OnceLock::new(), ..self.clone() }
     }
 
     /// Gravity, and the drag of the wind: ½ ρ C_d U² a square metre with C_d = c U⁻ⁿ.

@@ -196,8 +196,8 @@ impl PlotForecast {
 
     /// The plot of a scenario whose members are of these cohorts.
     fn of(scenario: &Scenario, cohorts: &[usize], expected: &[Expectation], recorded: &[u32]) -> Self {
-        // No closed form knows which plants a pest attacks, or what events take off.
-        let foreseen = scenario.pest.is_empty() && scenario.event.is_empty();
+        // No closed form knows which plants a pest attacks, what events take off, or what light buds will have.
+        let foreseen = scenario.pest.is_empty() && scenario.event.is_empty() && scenario.light.is_none();
         let certainty = if foreseen { Certainty::Exact } else { Certainty::About };
         let mut plot = Self { certainty, ..Self::NOTHING };
         for (member, cohort) in scenario.plot_members().into_iter().zip(cohorts) {

@@ -12,6 +12,8 @@ use phytomer_sim::management::Management;
 use phytomer_sim::plant::{Seed, ThreadBudget};
 use phytomer_sim::random::{PlantRandom, draw_key};
 use phytomer_sim::site::Site;
+use phytomer_sim::site::calendar::Calendar;
+use phytomer_sim::site::light::Light;
 use phytomer_sim::{GrowthModel, NEVER, Plot, Sowing};
 use std::sync::Arc;
 
@@ -24,6 +26,8 @@ pub struct Plots<'a> {
     management: Vec<Vec<Management>>,
     /// The site of each treatment, of a plot at the origin.
     sites: Vec<Site>,
+    /// The light of each treatment: for all replicates, or for each one.
+    lights: Vec<Vec<Option<Light>>>,
     /// The models of the cohorts of the trial.
     models: Vec<&'a dyn GrowthModel>,
     /// The members of the plots of each treatment.
@@ -37,7 +41,8 @@ impl<'a> Plots<'a> {
         let members = trial.treatments().iter().map(|treatment| treatment.scenario.plot_members()).collect();
         let management = (0..trial.treatments().len()).map(|treatment| managed(&trial, treatment)).collect();
         let sites = trial.treatments().iter().map(|treatment| treatment.scenario.site.felt()).collect();
-        Self { trial, field, management, sites, models, members }
+        let lights = (0..trial.treatments().len()).map(|treatment| lit(&trial, treatment)).collect();
+        Self { trial, field, management, sites, lights, models, members }
     }
 
     /// The trial.
@@ -85,6 +90,8 @@ impl<'a> Plots<'a> {
         let sown = if self.germinates(plant) { 0 } else { NEVER };
         let mut alone = Plot::new(plot, self.models.clone(), &[Sowing { species, seed, place, sown }]);
         self.settle(&mut alone, plot);
+        // Light that nobody feels is recorded with the plot, not here.
+        alone.site.light = None;
         alone.manage(self.management_of(plot).clone());
         self.expose(&mut alone);
         alone
@@ -154,7 +161,14 @@ impl<'a> Plots<'a> {
 
     fn site(&self, plot: u32) -> Site {
         let PlotPlace { treatment, replicate, .. } = self.trial.plot(plot);
-        let mut site = self.sites[treatment].moved(self.plot_place(plot));
+        let place = self.plot_place(plot);
+        let mut site = self.sites[treatment].moved(place);
+        let lights = &self.lights[treatment];
+        site.light = lights[(replicate as usize).min(lights.len() - 1)].as_ref().map(|light| light.moved(place));
+        let sees = |cohort: &usize| self.models[*cohort].sees_light();
+        if let Some(light) = &mut site.light {
+            light.felt = self.trial.cohorts_of(treatment, replicate).iter().any(sees);
+        }
         let claiming = |cohort: &&usize| self.models[**cohort].cell_m().is_some();
         // A plant by itself has no one to claim its cells from.
         site.cells.shared = self.trial.cohorts_of(treatment, replicate).iter().filter(claiming).count() > 1;
@@ -207,6 +221,16 @@ pub fn seed_of(scenario: &Scenario, plant: u32) -> Seed {
         component_limit: component_limit(scenario),
         keep_events: scenario.tables.contains(&Table::Events),
     }
+}
+
+/// The light of the plots of a treatment, by its calendars.
+fn lit(trial: &Trial, treatment: usize) -> Vec<Option<Light>> {
+    let scenario = &trial.treatments()[treatment].scenario;
+    let one = |calendar: Option<&Arc<Calendar>>| {
+        let told = trial.scenario().output.light;
+        scenario.lit(calendar.map(Arc::as_ref)).map(|light| Light { told, ..light })
+    };
+    trial.calendars_of(treatment).into_iter().map(one).collect()
 }
 
 /// What people do to the plants of a treatment, by its calendars.

@@ -1,7 +1,7 @@
 //! External influences on the plants of a run: gravity, a steady wind, and shapes that kill buds or block their way.
 //!
 //! Gravity and wind act only on species whose wood bends. A plane that kills is the shorter way to state a half space.
-//! The shapes that have names here also serve the events of the scenario. Absent: light and soil.
+//! The shapes that have names here also serve the events of the scenario. Absent: light (`light`) and soil.
 
 use phytomer_law::fault::{Fault, Path};
 use phytomer_models::buds::params::ColourText;
@@ -164,6 +164,15 @@ impl Site {
         let each =
             self.obstacle.iter().map(|obstacle| (obstacle, obstacle.felt(&named, &Path::root(), &mut Vec::new())));
         each.filter_map(|(obstacle, felt)| obstacle.drawn(felt?)).collect()
+    }
+
+    /// The obstacles of a plot at the origin that stop light: those in which buds die and that have an end. One that a
+    /// fault was told of is left out.
+    pub(super) fn opaque(&self) -> Vec<Arc<Shape>> {
+        let named = self.shapes(&mut Vec::new());
+        let inside = self.obstacle.iter().filter(|obstacle| obstacle.kills.is_inside());
+        let shapes = inside.filter_map(|obstacle| obstacle.felt(&named, &Path::root(), &mut Vec::new()));
+        shapes.map(|felt| felt.shape).filter(|shape| has_end(shape)).collect()
     }
 
     /// The shapes that have names, and their faults.

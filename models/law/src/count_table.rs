@@ -200,6 +200,11 @@ impl CountTable {
         self.grid.asks_height()
     }
 
+    /// Whether some parameter depends on the light of the bud.
+    pub fn asks_light(&self) -> bool {
+        self.grid.asks_light()
+    }
+
     /// The mean at a point.
     #[inline]
     pub fn mean(&self, at: At) -> f64 {

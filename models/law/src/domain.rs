@@ -6,6 +6,7 @@
 //! Absent: what the variables mean and which laws may depend on them (`variable`).
 
 use super::MAX_CELLS;
+use super::steps::{HEIGHT_STEP, MOST_HEIGHT, SHADE_STEPS, height_in_steps};
 use super::variable::{Asked, Variable};
 use phytomer_sim::clock::LAST_TICK;
 use phytomer_sim::site::calendar::Dates;
@@ -31,6 +32,8 @@ pub struct At {
     pub height: u32,
     /// Whether the bud meets an obstacle: 1 or 0.
     pub contact: u32,
+    /// What the bud lacks of the light of open ground, in steps of [`LIGHT_STEP`](super::LIGHT_STEP): 0 in full light.
+    pub shade: u32,
     /// Index of the physiological state in [`Domain::states`].
     pub state: u8,
 }
@@ -75,22 +78,12 @@ pub struct Longest {
 }
 
 /// The number of variables of a grid: those of [`Variable`] that the date does not decide, and the state.
-const AXES: usize = 10;
+const AXES: usize = 11;
 /// The place of the state among the variables of a grid.
-const STATE: usize = 9;
-/// The place of the first of the variables that few laws name: those of the bud, the height of the plant and contact.
+const STATE: usize = 10;
+/// The place of the first of the variables that few laws name: those of the bud, the height of the plant, contact and
+/// the light.
 const RARE: usize = 4;
-
-/// The steps in which laws know the height of a plant, metres: a table has a cell for each.
-pub const HEIGHT_STEP: f64 = 0.05;
-/// The greatest height that laws know, metres; the tallest tree known, the coast redwood Hyperion, has 116 m.
-const MOST_HEIGHT: u32 = 125;
-
-/// The last step that a height has reached, but for rounding.
-pub fn height_in_steps(metres: f64) -> u32 {
-    // The cast saturates, and takes 0 where there is no number.
-    (metres / HEIGHT_STEP + 1e-3).floor() as u32
-}
 
 /// Which variables a law depends on.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -143,8 +136,8 @@ fn place_among_dates(variable: Variable) -> Option<usize> {
 }
 
 impl At {
-    /// The value of `variable` at this point, of the height its steps; of a variable of the date the age, which decides
-    /// it.
+    /// The value of `variable` at this point, of the height and the light their steps; of a variable of the date the
+    /// age, which decides it.
     pub fn get(&self, variable: Variable) -> u32 {
         self.all()[axis_of(variable)]
     }
@@ -152,9 +145,9 @@ impl At {
     #[inline]
     fn all(&self) -> [u32; AXES] {
         let (bud_birth, bud_dimension) = (self.bud_birth, self.bud_dimension);
-        let (height, contact, state) = (self.height, self.contact, u32::from(self.state));
+        let (height, contact, shade, state) = (self.height, self.contact, self.shade, u32::from(self.state));
         let Self { age, dimension, cycle, rank, unit, .. } = *self;
-        [age, dimension, cycle, rank, bud_birth, bud_dimension, unit, height, contact, state]
+        [age, dimension, cycle, rank, bud_birth, bud_dimension, unit, height, contact, shade, state]
     }
 
     /// The variables in `uses` with their values, such as "age 3, dimension 27, state adult"; empty where there are
@@ -199,6 +192,7 @@ impl Domain {
             Variable::Unit => (0, self.max_unit),
             Variable::HeightM => (0, MOST_HEIGHT),
             Variable::Contact => (0, 1),
+            Variable::Light => (0, 1),
             _ => self.range_of_dates(variable),
         }
     }
@@ -207,6 +201,7 @@ impl Domain {
     fn cells(&self, variable: Variable) -> (u32, u32) {
         match variable {
             Variable::HeightM => (0, height_in_steps(f64::from(MOST_HEIGHT))),
+            Variable::Light => (0, SHADE_STEPS),
             _ => self.range(variable),
         }
     }
@@ -226,6 +221,7 @@ impl Domain {
         }
         match variable {
             Variable::HeightM => f64::from(at.height) * HEIGHT_STEP,
+            Variable::Light => f64::from(SHADE_STEPS.saturating_sub(at.shade)) / f64::from(SHADE_STEPS),
             _ if variable.is_of_the_date() => self.on_date(variable, at.age).unwrap_or(f64::NAN),
             _ => f64::from(at.get(variable)),
         }
@@ -290,8 +286,8 @@ impl Grid {
         let mut cells: u64 = 1;
         let states = (0, u32::try_from(domain.states.len().saturating_sub(1)).unwrap_or(u32::MAX));
         // The rank runs fastest and the state slowest.
-        use Variable::{Age, BudBirth, BudDimension, Contact, Cycle, Dimension, HeightM, Rank, Unit};
-        let of_time = [Rank, Contact, HeightM, Cycle, Unit, BudDimension, Dimension, BudBirth, Age];
+        use Variable::{Age, BudBirth, BudDimension, Contact, Cycle, Dimension, HeightM, Light, Rank, Unit};
+        let of_time = [Rank, Contact, Light, HeightM, Cycle, Unit, BudDimension, Dimension, BudBirth, Age];
         let ranges = of_time.map(|variable| (axis_of(variable), domain.cells(variable)));
         for (axis, (first, last)) in ranges.into_iter().chain([(STATE, states)]) {
             if !uses.axes[axis] {
@@ -320,6 +316,11 @@ impl Grid {
     /// Whether one of its variables is the height of the plant.
     pub fn asks_height(&self) -> bool {
         self.stride[Variable::HeightM as usize] != 0
+    }
+
+    /// Whether one of its variables is the light of the bud.
+    pub fn asks_light(&self) -> bool {
+        self.stride[Variable::Light as usize] != 0
     }
 
     /// Whether the rank does not matter.
@@ -364,7 +365,7 @@ impl Grid {
             stride => self.first[axis] + cell / stride % (self.span[axis] + 1),
         };
         let used = |variable: Variable| self.stride[variable as usize] != 0;
-        let [age, mut dimension, cycle, rank, mut bud_birth, mut bud_dimension, unit, height, contact, state] =
+        let [age, mut dimension, cycle, rank, mut bud_birth, mut bud_dimension, unit, height, contact, shade, state] =
             std::array::from_fn(value);
         if used(Variable::Age) {
             dimension = dimension.min(age);
@@ -380,6 +381,6 @@ impl Grid {
             bud_dimension = bud_dimension.min(bud_birth);
         }
         let state = u8::try_from(state).unwrap_or(u8::MAX);
-        At { age, dimension, cycle, rank, bud_birth, bud_dimension, unit, height, contact, state }
+        At { age, dimension, cycle, rank, bud_birth, bud_dimension, unit, height, contact, shade, state }
     }
 }

@@ -15,10 +15,10 @@ use super::curves::{ExponentialLaw, GompertzLaw, LinearLaw, LogisticLaw, Robusta
 use super::responses::{LinearPlateauLaw, MitscherlichLaw, QuadraticPlateauLaw};
 use crate::fault::{Fault, Path};
 
-/// A law: a number as a function of age, dimension, cycle, rank, bud_birth, bud_dimension, unit and state, and of
-/// nitrogen, degree_days, degree_days_per_day, day_length_h and date where the scenario tells them. Written as a bare
-/// number, or as a table with exactly one kind, for example `{ value = 0.1 }` or `{ expression = "min(1, 0.01 *
-/// dimension)" }`.
+/// A law: a number as a function of age, dimension, cycle, rank, bud_birth, bud_dimension, unit, height_m, light and
+/// state, and of nitrogen, degree_days, degree_days_per_day, day_length_h and date where the scenario tells them.
+/// Written as a bare number, or as a table with exactly one kind, for example `{ value = 0.1 }` or `{ expression =
+/// "min(1, 0.01 * dimension)" }`.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 #[serde(untagged)]
 pub enum Law {
@@ -87,9 +87,9 @@ pub struct LawForm {
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(with = "QuadraticPlateauLaw")]
     pub quadratic_plateau: Option<QuadraticPlateauLaw>,
-    /// A formula of order, age, dimension, cycle, rank, bud_birth, bud_dimension, unit, nitrogen, degree_days,
-    /// degree_days_per_day, day_length_h and date: + - * / ^, comparisons (0 or 1), and, or, not, min, max, exp, log
-    /// (natural), pow, sqrt, abs, floor, if(condition, then, else).
+    /// A formula of order, age, dimension, cycle, rank, bud_birth, bud_dimension, unit, height_m, light, nitrogen,
+    /// degree_days, degree_days_per_day, day_length_h and date: + - * / ^, comparisons (0 or 1), and, or, not, min,
+    /// max, exp, log (natural), pow, sqrt, abs, floor, if(condition, then, else).
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(with = "String")]
     pub expression: Option<String>,

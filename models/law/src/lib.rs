@@ -31,6 +31,7 @@ mod responding;
 mod responses;
 mod speed;
 pub mod spelling;
+mod steps;
 mod table;
 #[cfg(test)]
 mod tests;
@@ -48,13 +49,14 @@ pub use count_table::CountTable;
 pub use curves::{
     Beyond, ExponentialLaw, GompertzLaw, LinearLaw, LogisticLaw, RobustaLaw, StepLaw, TableLaw, WeibullLaw,
 };
-pub use domain::{At, Domain, HEIGHT_STEP, Longest, height_in_steps};
+pub use domain::{At, Domain, Longest};
 pub use form::{Law, LawForm};
 pub use quantity::{Quantity, QuantityForm};
 pub use range::ValueRange;
 pub use responding::Responding;
 pub use responses::{LinearPlateauLaw, MitscherlichLaw, QuadraticPlateauLaw};
 pub use speed::{SpeedForm, SpeedTable, SpeedText, Speeds};
+pub use steps::{HEIGHT_STEP, LIGHT_STEP, SHADE_STEPS, height_in_steps, shade_in_steps};
 pub use table::{ProbabilityTable, ValueTable, happens};
 pub use variable::{Asked, Variable};
 pub use variate::{Lognormal, Normal, Uniform, Variate, VariateForm};

@@ -128,6 +128,11 @@ impl ProbabilityTable {
         self.grid.asks_height()
     }
 
+    /// Whether the law depends on the light of the bud.
+    pub fn asks_light(&self) -> bool {
+        self.grid.asks_light()
+    }
+
     /// Whether the event happens at no point of a run of any length, so that no draw is needed.
     #[inline]
     pub fn is_never(&self) -> bool {

@@ -22,6 +22,7 @@ const HERE: At = At {
     unit: 4,
     height: 0,
     contact: 0,
+    shade: 0,
     state: 1,
 };
 

@@ -7,7 +7,8 @@
 //! move with every tick. For a node that is being made both meanings agree, because it is born at that tick.
 //!
 //! `nitrogen`, `degree_days`, `degree_days_per_day`, `day_length_h` and `date` are known where the scenario has a
-//! calendar that tells them, at the tick of the draw (`dates`). Where a law names `height_m` growth goes tick by tick.
+//! calendar that tells them, at the tick of the draw (`dates`). Where a law names `height_m`, or
+//! `light` in a scenario with `[light]`, growth goes tick by tick.
 
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::{Deserialize, Serialize};
@@ -38,6 +39,8 @@ pub enum Variable {
     HeightM,
     /// Whether the bud meets an obstacle at this step: 1 or 0.
     Contact,
+    /// The share of the light of open ground that reached the bud at the end of the last tick, from 0 to 1.
+    Light,
     /// The nitrogen of the season, kg/ha: the soil's own supply and what was applied since the season began.
     Nitrogen,
     /// Degree-days since the plant was sown, °C d.
@@ -52,7 +55,7 @@ pub enum Variable {
 
 impl Variable {
     /// Every variable, in the order of the lists that people see.
-    pub const ALL: [Self; 14] = [
+    pub const ALL: [Self; 15] = [
         Self::Age,
         Self::Dimension,
         Self::Cycle,
@@ -62,6 +65,7 @@ impl Variable {
         Self::Unit,
         Self::HeightM,
         Self::Contact,
+        Self::Light,
         Self::Nitrogen,
         Self::DegreeDays,
         Self::DegreeDaysPerDay,
@@ -85,6 +89,7 @@ impl Variable {
             Self::Unit => "unit",
             Self::HeightM => "height_m",
             Self::Contact => "contact",
+            Self::Light => "light",
             Self::Nitrogen => "nitrogen",
             Self::DegreeDays => "degree_days",
             Self::DegreeDaysPerDay => "degree_days_per_day",
@@ -117,6 +122,10 @@ impl Variable {
             }
             Self::Contact => {
                 "1 where the bud meets an obstacle or the ground within the cone that its species states, else 0"
+            }
+            Self::Light => {
+                "the share of the light of open ground that reached the bud at the end of the last tick, from 0 to 1, in \
+                 steps of 0.01; 1 where the scenario has no `[light]`"
             }
             Self::Nitrogen => {
                 "the nitrogen of the season, kg/ha: the soil's own supply and what was applied since the season began"
@@ -152,7 +161,7 @@ impl Variable {
 
     /// Whether the range of the variable is longer in a longer run.
     pub const fn goes_on_with_time(self) -> bool {
-        !matches!(self, Self::Rank | Self::Contact)
+        !matches!(self, Self::Rank | Self::Contact | Self::Light)
     }
 }
 
@@ -186,7 +195,8 @@ pub enum Asked {
     /// For a thing whose laws depend on its own age alone, as `dimension` and `cycle`: how an organ expands and turns,
     /// the stiffness and density of wood.
     OwnAge,
-    /// For a response of the buds of a plant to what the date brings: the age of the plant.
+    /// For a response of the buds of a plant to what the site brings: the age of the plant, which decides the date, or
+    /// the light of the bud.
     Response,
     /// For a plant, for quantities that it draws once: no variable.
     Once,
@@ -195,11 +205,12 @@ pub enum Asked {
 impl Asked {
     /// Whether a law for this purpose may depend on `variable`; `has_ranks` tells whether nodes have ranks there.
     pub(super) fn knows(self, variable: Variable, has_ranks: bool) -> bool {
-        use Variable::{Age, Cycle, Dimension, Rank};
+        use Variable::{Age, Cycle, Dimension, Light, Rank};
         match self {
             _ if variable.is_of_the_date() => self.knows(Age, has_ranks),
             Self::Bud => variable != Rank || has_ranks,
-            Self::Birth | Self::Response => variable == Age,
+            Self::Birth => variable == Age,
+            Self::Response => matches!(variable, Age | Light),
             Self::Internode => matches!(variable, Age | Dimension | Cycle),
             Self::OwnAge => matches!(variable, Dimension | Cycle),
             Self::Once => false,
@@ -231,7 +242,7 @@ impl Asked {
                 ("which is the plant's age and not known here", "`dimension`, its own age in ticks")
             }
             Self::OwnAge => ("which is not known here", "`dimension`, its own age in ticks"),
-            Self::Response => ("on which no response can depend", "a variable of the date, or `age`"),
+            Self::Response => ("on which no response can depend", "a variable of the date, `light`, or `age`"),
             Self::Once => ("which does not apply here", "a number, or a formula without variables"),
         };
         Fault::new(path, format!("the law depends on {what}, {why}"), expected)

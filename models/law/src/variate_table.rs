@@ -178,6 +178,11 @@ impl VariateTable {
         self.grid.asks_height()
     }
 
+    /// Whether some parameter depends on the light of the bud.
+    pub fn asks_light(&self) -> bool {
+        self.grid.asks_light()
+    }
+
     /// Whether two draws at the same point can differ, in a run of some length.
     pub fn is_random(&self) -> bool {
         let spread = |&[a, b]: &[f64; 2]| match &self.kind {

@@ -34,6 +34,8 @@ pub(super) struct Axis<'a> {
     pub around: Option<Around<'a>>,
     /// Whether it meets something at this step: 1 or 0.
     pub contact: u32,
+    /// What the bud lacks of full light, in the steps in which laws know it; 0 where none asks.
+    shade: u32,
     speed: Speed,
     /// The growth units after which the apex ends.
     last_unit: u32,
@@ -54,6 +56,8 @@ impl<'a> Axis<'a> {
         let laws = model.laws(plant.axes.order[bud.axis.index()]);
         words.of(laws);
         let height = if laws.asks_height { height_in_steps(f64::from(plant.height)) } else { 0 };
+        let shade = if laws.asks_light { plant.shade.of(bud.axis) } else { 0 };
+        words.shaded = shade > 0;
         let mut axis = Self {
             model,
             laws,
@@ -65,6 +69,7 @@ impl<'a> Axis<'a> {
             height,
             around: None,
             contact: 0,
+            shade,
             speed: Speed::ONE,
             last_unit: u32::MAX,
             leads: false,
@@ -132,8 +137,9 @@ impl<'a> Axis<'a> {
     pub fn at(&self, rank: u32) -> At {
         let ApicalBud { cycle, units: unit, birth: bud_birth, state, .. } = self.bud;
         let bud_dimension = bud_birth.saturating_sub(self.birth);
-        let (age, dimension, height, contact) = (self.tick, self.dimension, self.height, self.contact);
-        At { age, dimension, cycle, rank, bud_birth, bud_dimension, unit, height, contact, state }
+        let (age, dimension, height) = (self.tick, self.dimension, self.height);
+        let (contact, shade) = (self.contact, self.shade);
+        At { age, dimension, cycle, rank, bud_birth, bud_dimension, unit, height, contact, shade, state }
     }
 
     /// One clock step of the apical bud; false where it ended.
@@ -144,6 +150,11 @@ impl<'a> Axis<'a> {
         let laws = &self.laws.step;
         let at = self.at(0);
         if laws.death.happens(&self.words.step, 0, at) {
+            // A bud that would have lived in full light dies of shade.
+            let in_light = At { shade: 0, ..at };
+            if at.shade > 0 && !laws.death.happens(&self.words.step, 0, in_light) {
+                return self.end(ApexFate::Shaded, EventKind::Shaded, ApexEnd::Death);
+            }
             return self.end(ApexFate::Died, EventKind::Died, ApexEnd::Death);
         }
         if self.plant.exposure.is_some() && self.is_attacked(at) {

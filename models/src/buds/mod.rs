@@ -34,6 +34,8 @@ mod tests_faults;
 #[cfg(test)]
 mod tests_height;
 #[cfg(test)]
+mod tests_light;
+#[cfg(test)]
 mod tests_making;
 #[cfg(test)]
 mod tests_pests;

@@ -44,6 +44,11 @@ impl BudModel {
         self.orders.iter().any(|laws| laws.asks_height)
     }
 
+    /// Whether some law or response depends on the light of the bud.
+    fn asks_light(&self) -> bool {
+        self.orders.iter().any(|laws| laws.asks_light)
+    }
+
     pub(super) fn has_order(&self, order: u8) -> bool {
         (1..=self.orders.len()).contains(&usize::from(order))
     }
@@ -249,7 +254,7 @@ impl Grow for BudModel {
     }
 
     fn expectation(&self, until: Tick) -> Option<Expectation> {
-        if self.asks_the_bud() || self.asks_height() {
+        if self.asks_the_bud() || self.asks_height() || self.orders.iter().any(|laws| laws.laws_ask_light) {
             return None;
         }
         match until.min(self.until) {
@@ -261,6 +266,10 @@ impl Grow for BudModel {
     /// Diameter at birth plus the thickening of the internode's order at the plant's age and its own.
     fn sees_height(&self) -> bool {
         self.asks_height()
+    }
+
+    fn sees_light(&self) -> bool {
+        self.asks_light()
     }
 
     fn thicken(&self, age: Tick, plant: &mut Plant) {

@@ -23,6 +23,8 @@ pub(super) struct Words {
     pub trends: Vec<(u32, u8)>,
     /// The ranks of the zones of the growth unit, where it draws them.
     pub zones: Vec<Ranks>,
+    /// Whether the bud lacks light.
+    pub shaded: bool,
 }
 
 impl Words {
@@ -51,7 +53,7 @@ impl Words {
             let stream = self.bud.get_or_insert_with(|| random.stream(key, Purpose::Bud));
             read(stream, laws.head.width, step, of.width, &mut self.step);
         }
-        if !of.spare.places().is_empty() {
+        if !of.spare.places().is_empty() && (self.shaded || !laws.light_alone) {
             let stream = self.step_response.get_or_insert_with(|| random.stream(key, Purpose::StepResponse));
             read_spare(stream, start(step, STEP_OF_RESPONSES), &of.spare, &mut self.step[of.width..]);
         }
@@ -65,7 +67,7 @@ impl Words {
             let stream = self.node.get_or_insert_with(|| random.stream(key, Purpose::Node));
             read(stream, 0, node, of.width, &mut self.on_node);
         }
-        if !of.spare.places().is_empty() {
+        if !of.spare.places().is_empty() && (self.shaded || !laws.light_alone) {
             let stream = self.node_response.get_or_insert_with(|| random.stream(key, Purpose::NodeResponse));
             read_spare(stream, start(node, NODE_OF_RESPONSES), &of.spare, &mut self.on_node[of.width..]);
         }

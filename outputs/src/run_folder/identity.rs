@@ -40,6 +40,9 @@ pub fn identity(plan: &RunPlan) -> Map<String, Value> {
     if plan.mechanics {
         identity.insert("mechanics".to_owned(), json!(true));
     }
+    if plan.light {
+        identity.insert("light".to_owned(), json!(true));
+    }
     identity.extend(plan.sample.map(|sample| ("sample".to_owned(), json!(sample.stated()))));
     identity
 }

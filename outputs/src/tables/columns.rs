@@ -5,9 +5,11 @@
 //! the run"; no number stands for it. A `tick` is the plot's, an `age` (or `…_age`) the plant's. A component's place is
 //! relative to the seed of its plant, in single precision; that of the seed is in `plants`, in double precision.
 
+mod light;
 mod site;
 mod summary;
 
+pub use light::{RECORDS_IN_LIGHT, SITE_IN_LIGHT, SUMMARY_IN_LIGHT};
 pub use site::SITE;
 pub use summary::SUMMARY;
 

@@ -15,6 +15,7 @@ mod components;
 mod encode;
 mod error;
 mod events;
+mod light;
 mod membership;
 mod memory;
 mod of_species;
@@ -128,6 +129,16 @@ impl Table {
             Self::Plants => &columns::PLANTS,
             Self::Treatments => &columns::TREATMENTS,
             Self::Site => &columns::SITE,
+        }
+    }
+
+    /// Its columns in a run with those of light; such a run has the columns of mechanics too.
+    pub fn columns_in_light(self) -> &'static [Column] {
+        match self {
+            Self::Records => &columns::RECORDS_IN_LIGHT,
+            Self::Summary => &columns::SUMMARY_IN_LIGHT,
+            Self::Site => &columns::SITE_IN_LIGHT,
+            other => other.columns(true),
         }
     }
 

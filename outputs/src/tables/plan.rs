@@ -33,6 +33,8 @@ pub struct RunPlan {
     pub precision_m: Option<f64>,
     /// Whether `records` has the columns of mechanics.
     pub mechanics: bool,
+    /// Whether `records`, `summary` and `site` have the columns of light; `mechanics` is then true.
+    pub light: bool,
     /// The calendars of the plots of each treatment, in the order of the treatments.
     pub calendars: Vec<Calendars>,
     /// The species of each model, as an index into [`Provenance::species`]; a species is its own model beyond the list.
@@ -112,7 +114,7 @@ impl RunPlan {
 
     /// The columns of a table in this run.
     pub fn columns(&self, table: Table) -> &'static [Column] {
-        table.columns(self.mechanics)
+        if self.light { table.columns_in_light() } else { table.columns(self.mechanics) }
     }
 }
 

@@ -8,6 +8,7 @@
 //! Absent: storing row groups ([`Sink`]).
 
 use super::sink::{Rows, Sink};
+use super::site::GroundLight;
 use super::{
     ComponentColumns, ComponentIndex, ComponentRow, EventColumns, Group, Membership, OfMember, OfSpecies, PlantAtAge,
     PlantColumns, RecordColumns, RecordRow, RunPlan, Sample, SiteColumns, SortedEvents, Standing, SummaryColumns,
@@ -33,6 +34,10 @@ pub struct Recording<S> {
     recorded: Vec<Tick>,
     until: Tick,
     mechanics: bool,
+    /// Whether the columns of light are filled.
+    light: bool,
+    /// The light of the present plot at the recorded ticks so far, by their places.
+    ground_light: Vec<(usize, GroundLight)>,
     /// Whether the components of the present plot are written, as they are early for a plot that was grown ahead.
     components_written: bool,
     index: ComponentIndex,
@@ -80,6 +85,8 @@ impl<S: Sink> Recording<S> {
             recorded: plan.recorded.clone(),
             until: plan.until,
             mechanics: plan.mechanics,
+            light: plan.light,
+            ground_light: Vec::new(),
             components_written: false,
             index: ComponentIndex::default(),
             numbers: Vec::new(),
@@ -95,7 +102,8 @@ impl<S: Sink> Recording<S> {
 
     /// Whether a table has rows at this tick of a plot.
     pub fn wants(&self, tick: Tick) -> bool {
-        let wanted = self.tables.records.is_some() || self.tables.summary.is_some();
+        let of_light = self.light && self.tables.site.is_some();
+        let wanted = self.tables.records.is_some() || self.tables.summary.is_some() || of_light;
         wanted && self.recorded.binary_search(&tick).is_ok()
     }
 
@@ -109,8 +117,19 @@ impl<S: Sink> Recording<S> {
 
     /// Writes the rows of a plot as it stands at `tick`.
     pub fn record(&mut self, tick: Tick, plot: &Plot) -> Result<(), TableError> {
+        if let (true, Ok(place)) = (self.light, self.recorded.binary_search(&tick)) {
+            let ground = self.mean_ground(plot);
+            self.ground_light.push((place, GroundLight::of(plot, tick, ground)));
+        }
         let mut plants = by_number(plot).into_iter().enumerate();
         plants.try_for_each(|(number, at)| self.write_age(tick, plot, (number, at)))
+    }
+
+    /// The ground of a plant of a plot in the mean, m².
+    fn mean_ground(&self, plot: &Plot) -> Option<f64> {
+        let count = plot.plants.len();
+        let areas = (0..count).map(|number| of_member(&self.members, plot, number).ground_area_m2);
+        areas.sum::<Option<f64>>().map(|area| area / count.max(1) as f64)
     }
 
     /// The last recorded tick of a plot that ended in this way.
@@ -191,6 +210,9 @@ impl<S: Sink> Recording<S> {
             self.write_site()?;
         }
         self.group.count(plot, &self.recorded, last);
+        if self.light {
+            self.group.light_up(self.ground_light.drain(..));
+        }
         Ok(())
     }
 
@@ -217,11 +239,15 @@ impl<S: Sink> Recording<S> {
         let guard = of_member(&self.members, plot, number).guard;
         if let Some(table) = self.tables.summary.as_mut().filter(|_| !guard) {
             table.columns.add(of, plant, age, &summarise(plant, &self.index, age));
+            if self.light {
+                table.columns.add_light(plot, (at, tick));
+            }
             table.flush_if_full()?;
         }
         let chosen = has(self.sample, plot, at);
         let Some(table) = self.tables.records.as_mut().filter(|_| chosen) else { return Ok(()) };
-        let shown = PlantAtAge { of, plant, index: &self.index, age, mechanics: self.mechanics };
+        let lit = self.light.then(|| plot.site.light.as_ref().and_then(|light| light.found.as_deref()));
+        let shown = PlantAtAge { of, plant, index: &self.index, age, mechanics: self.mechanics, lit };
         let mut next = 0;
         while next < self.index.len() {
             self.index.select(age, table.room(), &mut next, &mut self.numbers);

@@ -9,7 +9,8 @@ use super::membership::Membership;
 use phytomer_sim::Tick;
 use phytomer_sim::mechanics::wood_volume;
 use phytomer_sim::plant::{AxisId, InternodeLook, Kind, NodeId, OrganId, Plant};
-use phytomer_sim::pose::{Frame, node_frame, organ_frame, start_frame};
+use phytomer_sim::pose::{Frame, bud_frame, node_frame, organ_frame, start_frame};
+use phytomer_sim::site::light::{Field, Lit};
 
 columns! {
     /// The buffers of `records`.
@@ -44,6 +45,7 @@ columns! {
         fresh_mass: Float(f32),
         curvature: Float(f32),
         moment: Float(f32),
+        light: Float(f32),
     }
 }
 
@@ -76,7 +78,12 @@ pub struct PlantAtAge<'a> {
     pub age: Tick,
     /// Whether the columns of mechanics are filled.
     pub mechanics: bool,
+    /// Its light, where the column of light is filled.
+    pub lit: Option<LitBy<'a>>,
 }
+
+/// The light of a plot; `None` where it has none.
+pub type LitBy<'a> = Option<&'a Field>;
 
 /// The values of one row in the columns of mechanics; NaN stands for null.
 #[derive(Debug, Clone, Copy)]
@@ -109,6 +116,9 @@ impl RecordColumns {
         self.extend(rows, shown);
         if shown.mechanics {
             self.push_mechanics(shown, numbers);
+        }
+        if let Some(lit) = shown.lit {
+            self.light.extend(numbers.iter().map(|number| shown.light_of(shown.index.component(*number), lit)));
         }
     }
 
@@ -159,6 +169,24 @@ impl<'a> Bearing<'a> {
 }
 
 impl<'a> PlantAtAge<'a> {
+    /// The share of light of a leaf or a bud; NaN of the others, and where the plot has no light.
+    fn light_of(&self, component: Component, lit: LitBy<'_>) -> f32 {
+        let Some(field) = lit else { return f32::NAN };
+        let plant = self.plant;
+        let place = |frame: &Frame, along: f32| {
+            [0, 1, 2].map(|k| plant.place[k] + f64::from(frame.base[k]) + f64::from(frame.heading[k] * along))
+        };
+        let place = match component {
+            Component::Organ(organ) if plant.organs.kind[organ.index()].is_foliage() => {
+                let length = plant.organs.length[organ.index()] * plant.expanded(organ, self.age);
+                place(&organ_frame(plant, organ, self.age), length / 2.0)
+            }
+            Component::Bud(axis) => place(&bud_frame(plant, axis), 0.0),
+            _ => return f32::NAN,
+        };
+        field.share_at(place) as f32
+    }
+
     #[inline]
     fn of_node(&self, node: NodeId, bearing: &mut Bearing<'a>) -> RecordRow {
         let nodes = &self.plant.nodes;

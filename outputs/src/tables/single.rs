@@ -40,7 +40,7 @@ pub fn each_record(
 ) -> Result<(), TableError> {
     index.read(plant)?;
     index.find_tips(plant, age);
-    let shown = PlantAtAge { of, plant, index, age, mechanics: true };
+    let shown = PlantAtAge { of, plant, index, age, mechanics: true, lit: None };
     let (mut next, mut numbers, mut rows, mut filled) = (0, Vec::new(), Vec::new(), RecordColumns::default());
     let mut row = vec![f64::NAN; places.len()];
     while next < index.len() {

@@ -34,6 +34,8 @@ columns! {
         flower: Double(f64) = at.pressures[2],
         fruit: Double(f64) = at.pressures[3],
         plant: Double(f64) = at.pressures[4],
+        leaf_area_index: Double(f64),
+        ground_light: Double(f64),
     }
 }
 
@@ -67,6 +69,21 @@ pub struct Group {
     pressures: Vec<[f64; 5]>,
     /// What a pest attacks on any of the plants.
     attacked: [bool; 5],
+    /// What the light of the plots comes to at each recorded tick; empty in runs without columns of light.
+    light: Vec<GroundLight>,
+}
+
+/// What the light of plots comes to at a tick.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct GroundLight {
+    /// The leaf area of the plots, m².
+    pub leaf_area: f64,
+    /// Their ground, m²; NaN where it is not known.
+    pub ground: f64,
+    /// The sum over the plots of the share of open light on their ground; NaN where there is no light.
+    pub share: f64,
+    /// The number of plots.
+    pub plots: u32,
 }
 
 impl Group {
@@ -95,6 +112,24 @@ impl Group {
                 self.press(exposure, ages.map(living));
             }
         }
+    }
+
+    /// Adds the light of a plot at recorded ticks, by their places.
+    pub fn light_up(&mut self, light: impl Iterator<Item = (usize, GroundLight)>) {
+        self.light.resize(self.living.len(), GroundLight::default());
+        for (place, of_plot) in light {
+            let Some(sum) = self.light.get_mut(place) else { continue };
+            sum.leaf_area += of_plot.leaf_area;
+            sum.ground += of_plot.ground;
+            sum.share += of_plot.share;
+            sum.plots += of_plot.plots;
+        }
+    }
+
+    /// The leaf area index and the light on the ground at a recorded tick; NaN where they are not known.
+    fn light_at(&self, place: usize) -> [f64; 2] {
+        let Some(of) = self.light.get(place).filter(|of| of.plots > 0) else { return [f64::NAN; 2] };
+        [of.leaf_area / of.ground, of.share / f64::from(of.plots)]
     }
 
     /// Adds what pests do to a plant at its age at each recorded tick; no age where it does not live.
@@ -128,6 +163,7 @@ impl Group {
         self.living.clear();
         self.pressures.clear();
         self.attacked = [false; 5];
+        self.light.clear();
     }
 }
 
@@ -142,7 +178,12 @@ impl SiteColumns {
             living: group.living[place],
             pressures: group.mean_pressures(place),
         };
-        let rows: Vec<SiteAt> = some.map(at).collect();
+        let rows: Vec<SiteAt> = some.clone().map(at).collect();
         self.extend(&rows, group);
+        if !group.light.is_empty() {
+            let [index, share]: [fn([f64; 2]) -> f64; 2] = [|[index, _]| index, |[_, share]| share];
+            self.leaf_area_index.extend(some.clone().map(|place| index(group.light_at(place))));
+            self.ground_light.extend(some.map(|place| share(group.light_at(place))));
+        }
     }
 }

@@ -40,6 +40,8 @@ columns! {
         basal_diameter: Double(f64) = summary.basal_diameter,
         breast_diameter: Double(f64) = summary.breast_diameter,
         lowest_leaf: Double(f64) = summary.lowest_leaf,
+        intercepted_light: Double(f64),
+        light_competition: Double(f64),
     }
 }
 

@@ -69,6 +69,8 @@ pub enum ApexFate {
     Rewritten = 8,
     /// It met an obstacle, and its species gives up there.
     Obstructed = 9,
+    /// It died for want of light.
+    Shaded = 10,
 }
 
 impl ApexFate {
@@ -85,6 +87,7 @@ impl ApexFate {
             Self::Attacked => Cause::Attacked,
             Self::Rewritten => Cause::Rewritten,
             Self::Obstructed => Cause::Obstructed,
+            Self::Shaded => Cause::Shaded,
         }
     }
 }

@@ -50,11 +50,13 @@ pub enum EventKind {
     Rewritten = 17,
     /// The bud died of an obstacle that it met.
     Obstructed = 18,
+    /// The bud died for want of light.
+    Shaded = 19,
 }
 
 impl EventKind {
     /// Every kind, in the order of their numbers.
-    pub const ALL: [Self; 19] = [
+    pub const ALL: [Self; 20] = [
         Self::Grew,
         Self::Paused,
         Self::Died,
@@ -74,6 +76,7 @@ impl EventKind {
         Self::Attacked,
         Self::Rewritten,
         Self::Obstructed,
+        Self::Shaded,
     ];
 
     /// The event as it stands in tables.
@@ -98,6 +101,7 @@ impl EventKind {
             Self::Attacked => "attacked",
             Self::Rewritten => "rewritten",
             Self::Obstructed => "obstructed",
+            Self::Shaded => "shaded",
         }
     }
 }

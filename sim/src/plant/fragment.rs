@@ -74,6 +74,7 @@ impl Plant {
             own_trends: OwnTrends::default(),
             exposure: self.exposure.clone(),
             height: self.height,
+            shade: super::Shade::default(),
             random: self.random.clone(),
             place: self.place,
             stated: Default::default(),

@@ -204,11 +204,13 @@ pub enum Cause {
     Rewritten = 12,
     /// Its bud met an obstacle, and its species gives up there.
     Obstructed = 13,
+    /// It died for want of light.
+    Shaded = 14,
 }
 
 impl Cause {
     /// Every cause of an end, in the order of their numbers.
-    pub const ALL: [Self; 13] = [
+    pub const ALL: [Self; 14] = [
         Self::Mortality,
         Self::Flowered,
         Self::Completed,
@@ -222,6 +224,7 @@ impl Cause {
         Self::Attacked,
         Self::Rewritten,
         Self::Obstructed,
+        Self::Shaded,
     ];
 
     /// The cause as it stands in tables; `None` for a living component.
@@ -241,6 +244,7 @@ impl Cause {
             Self::Attacked => "attacked",
             Self::Rewritten => "rewritten",
             Self::Obstructed => "obstructed",
+            Self::Shaded => "shaded",
         })
     }
 }

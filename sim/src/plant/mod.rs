@@ -36,6 +36,7 @@ mod partway;
 mod placed;
 pub(crate) mod placing;
 mod rare;
+mod shade;
 pub(crate) mod standing;
 pub(crate) mod stated;
 mod strain;
@@ -65,6 +66,7 @@ pub use outline::StatedOrgans;
 pub use own_look::OwnLooks;
 pub(crate) use partway::Former;
 pub use partway::Partway;
+pub use shade::Shade;
 pub use stated::{Part, Rest, StatedFrames};
 pub use strain::{Hold, Strain};
 pub use wood::{Drag, OrganMass, Thickening, Tissue, Uprighting, Wood};
@@ -112,6 +114,9 @@ pub struct Plant {
     /// Its height at the end of the last tick, metres above the seed, where its model asks
     /// ([`crate::Grow::sees_height`]); else 0.
     pub height: f32,
+    /// What its buds lacked of full light at the end of the last tick, where its model asks
+    /// ([`crate::Grow::sees_light`]); else nothing.
+    pub shade: Shade,
     /// The source of its random words.
     pub random: PlantRandom,
     /// The place of its seed in the plot, metres. All other positions of a plant are relative to its seed, so that a
@@ -181,6 +186,7 @@ impl Plant {
             own_trends: OwnTrends::default(),
             exposure: None,
             height: 0.0,
+            shade: Shade::default(),
             random: PlantRandom::new(seed.run_seed, seed.draws),
             place: [0.0; 3],
             stated: StatedFrames::default(),
@@ -220,6 +226,7 @@ impl Plant {
         self.bearers.clear();
         self.age = 0;
         self.height = 0.0;
+        self.shade.clear();
         self.components = 0;
         if let Some(events) = &mut self.events {
             events.clear();

@@ -1,4 +1,4 @@
-//! What responses change, by the age of the plant: probabilities, numbers of nodes, lengths.
+//! What responses change, by the age of the plant and the light of the bud: probabilities, numbers of nodes, lengths.
 //!
 //! Hazards join. Independent causes of death with probabilities p and q kill with p + q − p q; of a response counts
 //! what it adds to its value at the reference, d = q − q(reference), so that p becomes p + d − p d, kept within [0, 1],
@@ -7,6 +7,7 @@
 //! ⌊n m + u⌋ with u uniform over [0, 1), whose mean is n m. At the reference d = 0 and m = 1 to the bit. Absent: where
 //! the values come from (`response`).
 
+use crate::law::At;
 use std::sync::Arc;
 
 /// The most nodes that a growth unit can have after a response.
@@ -14,30 +15,55 @@ const MOST_NODES: f64 = 65_535.0;
 /// What a 32-bit word stands for: so many parts of 1.
 const WORDS: f64 = 4_294_967_296.0;
 
-/// A value for each age of the plant; later ages have the last.
+/// A value for each age of the plant; later ages have the last. Where something responds to light, a value for each
+/// step of shade beside it.
 #[derive(Debug, Clone, PartialEq)]
-pub struct ByAge(Arc<[f64]>);
+pub struct ByAge {
+    by_age: Arc<[f64]>,
+    /// Empty where nothing responds to light.
+    by_shade: Arc<[f64]>,
+    /// Whether the two join as hazards, and are not multiplied.
+    joins: bool,
+}
 
 impl ByAge {
-    /// The values at the ages 0, 1, 2 …; at least one.
-    pub fn new(values: Vec<f64>) -> Self {
-        Self(values.into())
+    /// The factors at the ages 0, 1, 2 …, at least one, and those at each step of shade.
+    pub fn factors(by_age: Vec<f64>, by_shade: Vec<f64>) -> Self {
+        Self { by_age: by_age.into(), by_shade: by_shade.into(), joins: false }
     }
 
-    /// The value at an age.
+    /// The hazards at the ages 0, 1, 2 …, at least one, and those at each step of shade.
+    pub fn hazards(by_age: Vec<f64>, by_shade: Vec<f64>) -> Self {
+        Self { by_age: by_age.into(), by_shade: by_shade.into(), joins: true }
+    }
+
+    /// The value at the age and the shade of a point.
     #[inline]
-    pub fn at(&self, age: u32) -> f64 {
-        self.0.get(age as usize).or(self.0.last()).copied().unwrap_or(1.0)
+    pub fn at(&self, at: At) -> f64 {
+        let by_age = self.by_age.get(at.age as usize).or(self.by_age.last()).copied().unwrap_or(1.0);
+        match self.by_shade.get(at.shade as usize).or(self.by_shade.last()) {
+            None => by_age,
+            Some(by_shade) if self.joins => by_age + by_shade * (1.0 - by_age),
+            Some(by_shade) => by_age * by_shade,
+        }
+    }
+
+    /// Whether nothing but shade changes anything, so that in full light no word is needed.
+    pub fn is_of_light_alone(&self) -> bool {
+        let neutral = if self.joins { 0.0 } else { 1.0 };
+        let light = |by_shade: &[f64]| by_shade.first() == Some(&neutral);
+        light(&self.by_shade) && self.by_age.iter().all(|value| *value == neutral)
     }
 
     /// The square roots: of what acts on length and on width alike, where the values act on an area.
     pub fn roots(&self) -> Self {
-        Self(self.0.iter().map(|value| value.sqrt()).collect())
+        let roots = |of: &[f64]| of.iter().map(|value| value.sqrt()).collect();
+        Self { by_age: roots(&self.by_age), by_shade: roots(&self.by_shade), joins: false }
     }
 
     /// The distribution of ⌊n m + u⌋ for a number n with the probabilities `own` of 0, 1, 2 ….
-    pub fn spread(&self, own: Vec<f64>, age: u32) -> Vec<f64> {
-        let factor = self.at(age);
+    pub fn spread(&self, own: Vec<f64>, at: At) -> Vec<f64> {
+        let factor = self.at(at);
         if factor == 1.0 {
             return own;
         }
@@ -82,25 +108,31 @@ pub enum Change {
 impl Change {
     /// The changed probability.
     #[inline]
-    pub fn of(&self, p: f64, age: u32) -> f64 {
+    pub fn of(&self, p: f64, at: At) -> f64 {
         match self {
-            Self::Times(factor) => (p * factor.at(age)).min(1.0),
-            Self::Joins(hazard) => join(p, hazard.at(age)),
+            Self::Times(factor) => (p * factor.at(at)).min(1.0),
+            Self::Joins(hazard) => join(p, hazard.at(at)),
         }
     }
 
-    /// Whether the probability is unchanged at an age.
+    /// Whether the probability is unchanged at a point.
     #[inline]
-    pub fn is_neutral_at(&self, age: u32) -> bool {
+    pub fn is_neutral_at(&self, at: At) -> bool {
         match self {
-            Self::Times(factor) => factor.at(age) == 1.0,
-            Self::Joins(hazard) => hazard.at(age) == 0.0,
+            Self::Times(factor) => factor.at(at) == 1.0,
+            Self::Joins(hazard) => hazard.at(at) == 0.0,
         }
+    }
+
+    /// Whether nothing but shade changes the probability.
+    pub fn is_of_light_alone(&self) -> bool {
+        let (Self::Times(values) | Self::Joins(values)) = self;
+        values.is_of_light_alone()
     }
 
     /// Whether a probability that is 0 at every point (`never`), or else any probability, can change.
     pub fn can_change(&self, never: bool) -> bool {
-        !never || matches!(self, Self::Joins(hazard) if hazard.0.iter().any(|d| *d > 0.0))
+        !never || matches!(self, Self::Joins(of) if of.by_age.iter().chain(&*of.by_shade).any(|d| *d > 0.0))
     }
 }
 
@@ -119,9 +151,10 @@ mod tests {
 
     #[test]
     fn nodes_have_the_mean_of_the_product() {
-        let factor = ByAge::new(vec![1.0, 1.3, 0.25]);
-        assert_eq!(factor.spread(vec![0.5, 0.0, 0.5], 0), [0.5, 0.0, 0.5]);
-        let spread = factor.spread(vec![0.2, 0.3, 0.5], 1);
+        let factor = ByAge::factors(vec![1.0, 1.3, 0.25], Vec::new());
+        let by = |age| At { age, ..At::default() };
+        assert_eq!(factor.spread(vec![0.5, 0.0, 0.5], by(0)), [0.5, 0.0, 0.5]);
+        let spread = factor.spread(vec![0.2, 0.3, 0.5], by(1));
         let mean: f64 = spread.iter().enumerate().map(|(n, p)| n as f64 * p).sum();
         assert!((mean - 1.3 * 1.3).abs() < 1e-12 && (spread.iter().sum::<f64>() - 1.0).abs() < 1e-12, "{spread:?}");
         // Words spread evenly over their range give the same distribution.
@@ -131,6 +164,6 @@ mod tests {
         assert_eq!(drawn.iter().filter(|n| **n == 3).count(), 600);
         assert_eq!([0, u32::MAX].map(|word| nodes_times(7, 1.0, word)), [7, 7]);
         assert_eq!(nodes_times(65_535, 1000.0, 5), 65_535);
-        assert_eq!(factor.at(99), 0.25);
+        assert_eq!(factor.at(by(99)), 0.25);
     }
 }

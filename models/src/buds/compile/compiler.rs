@@ -53,6 +53,8 @@ pub struct Compiler<'a> {
     pub asks_the_bud: bool,
     /// Whether some compiled law depends on the height of the plant.
     pub asks_height: bool,
+    /// Whether some compiled law depends on the light of the bud.
+    pub asks_light: bool,
     /// The faults found so far.
     pub faults: Vec<Fault>,
     /// The faults of keys that are compiled in several domains, for each domain: other orders may find the same faults.
@@ -81,6 +83,7 @@ impl<'a> Compiler<'a> {
             speeds,
             asks_the_bud: false,
             asks_height: false,
+            asks_light: false,
             faults,
             asked_again: Vec::new(),
         }
@@ -148,6 +151,7 @@ impl<'a> Compiler<'a> {
         let table = self.accept(compiled).unwrap_or_else(|| ProbabilityTable::certain_or_never(false));
         self.asks_the_bud |= table.asks_the_bud();
         self.asks_height |= table.asks_height();
+        self.asks_light |= table.asks_light();
         table
     }
 
@@ -182,6 +186,7 @@ impl<'a> Compiler<'a> {
         let table = self.accept(compiled).unwrap_or_else(|| CountTable::always(least));
         self.asks_the_bud |= table.asks_the_bud();
         self.asks_height |= table.asks_height();
+        self.asks_light |= table.asks_light();
         let (outside, expected) = match (table.min() < least, table.max() > most) {
             (true, _) => (table.min(), format!("at least {least}")),
             (_, true) => (table.max(), format!("at most {most}")),
@@ -199,6 +204,7 @@ impl<'a> Compiler<'a> {
         let table = self.accept_again(compiled).unwrap_or_else(|| CountTable::always(0));
         self.asks_the_bud |= table.asks_the_bud();
         self.asks_height |= table.asks_height();
+        self.asks_light |= table.asks_light();
         if year > 0 && table.max() >= year {
             let found = format!("the tick {} is not in a year of {year} ticks", table.max());
             let expected = format!("a tick of the year from 0 to {}", year.saturating_sub(1));
@@ -267,6 +273,7 @@ impl<'a> Compiler<'a> {
         let table = self.accept_again(compiled).unwrap_or_else(|| VariateTable::always(0.0));
         self.asks_the_bud |= table.asks_the_bud();
         self.asks_height |= table.asks_height();
+        self.asks_light |= table.asks_light();
         table
     }
 
@@ -285,6 +292,7 @@ impl<'a> Compiler<'a> {
         let table = self.accept(compiled).unwrap_or_else(|| VariateTable::always(0.0));
         self.asks_the_bud |= table.asks_the_bud();
         self.asks_height |= table.asks_height();
+        self.asks_light |= table.asks_light();
         table
     }
 

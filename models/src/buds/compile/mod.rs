@@ -73,6 +73,12 @@ pub(super) struct OrderLaws {
     pub asks_the_bud: bool,
     /// Whether some law depends on the height of the plant.
     pub asks_height: bool,
+    /// Whether some law or response depends on the light of the bud.
+    pub asks_light: bool,
+    /// Whether responses of the order change nothing in full light, so that a bud there reads no words of them.
+    pub light_alone: bool,
+    /// Whether a law itself does, so that sums over the ages of axes cannot have it.
+    pub laws_ask_light: bool,
     /// Metres added to a diameter; a law of the plant's age and the internode's own.
     pub thickening: ValueTable,
 }
@@ -171,6 +177,9 @@ impl OrderLaws {
             thickening: compiler.thickening(&order.internode.thickening_mm),
             asks_the_bud: compiler.asks_the_bud,
             asks_height: compiler.asks_height,
+            asks_light: compiler.asks_light,
+            laws_ask_light: compiler.asks_light,
+            light_alone: false,
             step,
         }
     }

@@ -17,8 +17,8 @@ const MOST: f64 = 100.0;
 
 const RATIO: ValueRange = ValueRange { min: 0.0, max: 1e9, what: "a response" };
 
-/// The values by age of all that acts on a target.
-type Acting = BTreeMap<Target, Vec<f64>>;
+/// The values of all that acts on a target: by age, and by shade if something responds to light.
+type Acting = BTreeMap<Target, [Vec<f64>; 2]>;
 
 /// Compiles the responses of a species up to the age `until`, for a plant whose ages have these dates, and lets them
 /// act on the laws of its orders.
@@ -41,7 +41,14 @@ pub fn compile(
                 act(response, &domain, &path, &mut acting, &mut again);
             }
         }
-        acting.into_iter().for_each(|(target, values)| respond(laws, target, ByAge::new(values)));
+        laws.light_alone = true;
+        for (target, [by_age, by_shade]) in acting {
+            laws.asks_light |= !by_shade.is_empty();
+            let of = if target.is_hazard() { ByAge::hazards } else { ByAge::factors };
+            let values = of(by_age, by_shade);
+            laws.light_alone &= values.is_of_light_alone();
+            respond(laws, target, values);
+        }
     }
     for (place, response) in buds.response.iter().enumerate() {
         check(response, orders.len(), &path.key("response").index(place), faults);
@@ -72,9 +79,13 @@ fn act(response: &Response, domain: &Domain, path: &Path, acting: &mut Acting, f
     };
     values.by_age.resize(domain.until as usize + 1, values.at_reference);
     for target in hazards {
-        let joined = acting.entry(target).or_insert_with(|| vec![0.0; values.by_age.len()]);
-        let d = values.by_age.iter().map(|q| q - values.at_reference);
-        joined.iter_mut().zip(d).for_each(|(joined, d)| *joined += d * (1.0 - *joined));
+        let [by_age, by_shade] = both(acting, target, &values, 0.0);
+        let join = |joined: &mut Vec<f64>, values_of: &[f64]| {
+            let d = values_of.iter().map(|q| q - values.at_reference);
+            joined.iter_mut().zip(d).for_each(|(joined, d)| *joined += d * (1.0 - *joined));
+        };
+        join(by_age, &values.by_age);
+        join(by_shade, &values.by_shade);
     }
     if ratios.is_empty() {
         return;
@@ -83,9 +94,23 @@ fn act(response: &Response, domain: &Domain, path: &Path, acting: &mut Acting, f
         return faults.push(fault);
     }
     for target in ratios {
-        let product = acting.entry(target).or_insert_with(|| vec![1.0; values.by_age.len()]);
-        product.iter_mut().zip(&values.by_age).for_each(|(product, value)| *product *= value / values.at_reference);
+        let [by_age, by_shade] = both(acting, target, &values, 1.0);
+        let multiply = |product: &mut Vec<f64>, values_of: &[f64]| {
+            let ratios = values_of.iter().map(|value| value / values.at_reference);
+            product.iter_mut().zip(ratios).for_each(|(product, ratio)| *product *= ratio);
+        };
+        multiply(by_age, &values.by_age);
+        multiply(by_shade, &values.by_shade);
     }
+}
+
+/// What acts on a target so far, with room for the values of one more response.
+fn both<'a>(acting: &'a mut Acting, target: Target, values: &Responding, none: f64) -> &'a mut [Vec<f64>; 2] {
+    let both = acting.entry(target).or_insert_with(|| [vec![none; values.by_age.len()], Vec::new()]);
+    if both[1].len() < values.by_shade.len() {
+        both[1].resize(values.by_shade.len(), none);
+    }
+    both
 }
 
 /// The fault of a response that has no ratio to its value at the reference, or a ratio that is too large.
@@ -95,7 +120,8 @@ fn ratio_fault(values: &Responding, reference: f64, path: &Path) -> Option<Fault
             format!("the response is {} at the reference {reference}, by which it is divided", values.at_reference);
         return Some(Fault::new(path, problem, "a response above 0 at its reference"));
     }
-    let most = values.by_age.iter().fold(0.0_f64, |most, value| most.max(value / values.at_reference));
+    let most =
+        values.by_age.iter().chain(&values.by_shade).fold(0.0_f64, |most, value| most.max(value / values.at_reference));
     let problem = format!("the response is {most} times its value at the reference {reference}");
     (most > MOST).then(|| Fault::new(path, problem, format!("at most {MOST} times")))
 }

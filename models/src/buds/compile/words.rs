@@ -33,7 +33,7 @@ impl Layout {
     pub fn chance(&mut self, table: ProbabilityTable, times: u32) -> Chance {
         let fixed = (table.is_never() || table.is_certain()).then(|| table.is_certain());
         let slot = self.take(fixed.is_none(), times);
-        Chance { table, slot, fixed, change: None }
+        Chance { table, slot, fixed, change: None, light_alone: false }
     }
 
     /// Slots for `times` numbers of things.
@@ -106,6 +106,8 @@ pub struct Chance {
     fixed: Option<bool>,
     /// The change by responses.
     change: Option<Change>,
+    /// Whether nothing but shade changes it.
+    light_alone: bool,
 }
 
 impl Chance {
@@ -115,6 +117,7 @@ impl Chance {
         if self.fixed.is_some() && change.can_change(self.table.is_never()) {
             self.slot = spare.take(place, times);
         }
+        self.light_alone = change.is_of_light_alone();
         self.change = Some(change).filter(|change| change.can_change(self.table.is_never()));
     }
 
@@ -122,17 +125,18 @@ impl Chance {
     // Called for each bud and node: without responses it is what it was without them.
     #[inline(always)]
     pub fn happens(&self, words: &[u32], nth: u32, at: At) -> bool {
-        match (self.change.is_some().then(|| self.responded(words, nth, at)).flatten(), self.fixed) {
+        let changes = self.change.is_some() && !(self.light_alone && at.shade == 0);
+        match (changes.then(|| self.responded(words, nth, at)).flatten(), self.fixed) {
             (Some(happens), _) => happens,
             (None, Some(fixed)) => fixed,
             (None, None) => self.table.happens(self.slot.word(words, nth), at),
         }
     }
 
-    /// Whether the event happens where responses change its probability; `None` at ages at which they do not.
+    /// Whether the event happens where responses change its probability; `None` where they do not.
     #[inline(never)]
     fn responded(&self, words: &[u32], nth: u32, at: At) -> Option<bool> {
-        let changes = self.change.as_ref().is_some_and(|change| !change.is_neutral_at(at.age));
+        let changes = self.change.as_ref().is_some_and(|change| !change.is_neutral_at(at));
         changes.then(|| happens(self.probability(at), self.word(words, nth)))
     }
 
@@ -152,12 +156,12 @@ impl Chance {
     #[inline]
     pub fn probability(&self, at: At) -> f64 {
         let own = self.table.probability(at);
-        self.change.as_ref().map_or(own, |change| change.of(own, at.age))
+        self.change.as_ref().map_or(own, |change| change.of(own, at))
     }
 
     /// Whether the probability depends on the state and the variables `known` at most.
     pub fn asks_only(&self, known: &[Variable]) -> bool {
-        self.table.asks_only(known) && (self.change.is_none() || known.contains(&Variable::Age))
+        self.table.asks_only(known) && (self.change.is_none() || self.light_alone || known.contains(&Variable::Age))
     }
 
     /// Whether the event happens at no point, so that no draw is needed.
@@ -202,8 +206,13 @@ impl Number {
         };
         match &self.times {
             None => own,
-            Some((factor, slot)) => nodes_times(own, factor.at(at.age), slot.word(words, nth)),
+            Some((factor, slot)) => nodes_times(own, factor.at(at), slot.word(words, nth)),
         }
+    }
+
+    /// Whether nothing but shade changes it.
+    fn is_of_light_alone(&self) -> bool {
+        self.times.as_ref().is_none_or(|(factor, _)| factor.is_of_light_alone())
     }
 
     /// The probabilities of 0, 1, 2 … at a point.
@@ -211,13 +220,13 @@ impl Number {
         let own = self.table.pmf(at);
         match &self.times {
             None => own,
-            Some((factor, _)) => factor.spread(own, at.age),
+            Some((factor, _)) => factor.spread(own, at),
         }
     }
 
     /// Whether the distribution depends on the state and the variables `known` at most.
     pub fn asks_only(&self, known: &[Variable]) -> bool {
-        self.table.asks_only(known) && (self.times.is_none() || known.contains(&Variable::Age))
+        self.table.asks_only(known) && (self.is_of_light_alone() || known.contains(&Variable::Age))
     }
 }
 
@@ -253,7 +262,7 @@ impl Measure {
     /// A value under responses.
     #[inline(never)]
     fn responded(&self, own: f32, at: At) -> f32 {
-        self.times.as_ref().map_or(own, |factor| own * factor.at(at.age) as f32)
+        self.times.as_ref().map_or(own, |factor| own * factor.at(at) as f32)
     }
 
     /// Multiplies the measure by a factor.

@@ -1,0 +1,184 @@
+//! Laws and responses of the light of a bud: full light changes no byte, shade acts as the closed forms say, and no
+//! order of plants and no number of threads shows.
+//!
+//! Bounds are four standard errors. Absent: how light is found (`phytomer_sim::site::light`).
+
+use super::params::{Axillary, GrowthUnit, Internode, Leaf, Response, Target};
+use super::tests::{chimera, hydra};
+use super::{BudModel, Buds, Order};
+use crate::contract::{self, seed_of};
+use crate::fault::Path;
+use crate::law::{Count, Law, LawForm, Variate};
+use phytomer_sim::model::GrowthModel;
+use phytomer_sim::plant::{ApexFate, Cause, EventKind, Plant};
+use phytomer_sim::plot::{Plot, Sowing};
+use phytomer_sim::shape::{Cuboid, Shape};
+use phytomer_sim::site::light::{Light, Lighting};
+use phytomer_sim::{Tick, grow};
+use std::sync::Arc;
+
+fn compiled(buds: &Buds, until: Tick) -> BudModel {
+    buds.compile(until, &Path::root()).unwrap_or_else(|faults| panic!("{faults:?}"))
+}
+
+fn expression(text: &str) -> Law {
+    Law::from(LawForm { expression: Some(text.to_owned()), ..LawForm::default() })
+}
+
+fn response(acts_on: &[Target], law: &str) -> Response {
+    Response { acts_on: acts_on.iter().copied().collect(), law: expression(law), reference: 1.0, orders: None }
+}
+
+fn roof() -> Arc<Shape> {
+    Arc::new(Shape::Cuboid(Cuboid { low: [-1e4, -1e4, 50.0], high: [1e4, 1e4, 51.0] }))
+}
+
+/// Plants of these models a metre apart, grown in this light; the numbers of the plants are those of their sowings.
+fn grown(models: &[&dyn GrowthModel], numbers: &[u32], until: Tick, lighting: Option<Lighting>) -> Vec<Plant> {
+    let sowing = |number: &u32| Sowing {
+        species: *number as usize % models.len(),
+        seed: seed_of(12, *number),
+        place: [f64::from(number % 4), f64::from(number / 4), 0.0],
+        sown: 0,
+    };
+    let mut plot = Plot::new(0, models.to_vec(), &numbers.iter().map(sowing).collect::<Vec<_>>());
+    plot.site.light = lighting.map(Light::of);
+    plot.ask_light();
+    grow(&mut plot, until, &mut ()).expect("nothing is recorded");
+    plot.plants
+}
+
+/// Everything in the columns of a plant, by which tables are written.
+fn columns(plant: &Plant) -> String {
+    format!("{:?} {:?} {:?} {:?}", plant.axes, plant.nodes, plant.organs, plant.events)
+}
+
+/// A response that names the light and does not change with it, a response that does and is grown without `[light]`,
+/// and a species without any law of light in deep shade: all have the bytes of none. Growth by the clock numbers
+/// components by tick, so plants that follow it are compared with plants that do.
+#[test]
+fn at_full_light_and_without_light_no_byte_changes() {
+    let dark = || Lighting { opaque: vec![roof()], ..Lighting::default() };
+    for buds in [chimera(), hydra()] {
+        let steady = Response { reference: 1.0, ..response(&Target::ALL, "0.3 + 0 * light") };
+        let changing = response(&Target::ALL, "0.2 + 0.6 * light");
+        let with = |response: Response| compiled(&Buds { response: vec![response], ..buds.clone() }, 12);
+        let (plain, steady, changing) = (compiled(&buds, 12), with(steady), with(changing));
+        let numbers: Vec<u32> = (0..12).collect();
+        let of = |model: &BudModel, light| grown(&[model], &numbers, 12, light).iter().map(columns).collect::<Vec<_>>();
+        let known = of(&plain, None);
+        assert!(known == of(&changing, None), "without light");
+        assert!(known == of(&plain, Some(dark())), "without a law of light");
+        let by_the_clock = |model: &BudModel, light: Option<Lighting>| -> Vec<String> {
+            let compared = |plant: &Plant| format!("{:?}", contract::components(plant));
+            grown(&[model], &numbers, 12, light).iter().map(compared).collect()
+        };
+        assert!(by_the_clock(&plain, None) == by_the_clock(&steady, Some(dark())), "at the reference");
+        assert!(by_the_clock(&plain, None) != by_the_clock(&changing, Some(dark())), "in the dark it responds");
+        assert_eq!(plain.expectation(12), changing.expectation(12));
+    }
+}
+
+#[track_caller]
+fn assert_share(happened: usize, of: usize, p: f64, what: &str) {
+    let (share, error) = (happened as f64 / of as f64, (p * (1.0 - p) / of as f64).sqrt());
+    assert!((share - p).abs() <= 4.0 * error, "{what}: {share} of {of}, expected {p} ± {error}");
+}
+
+/// In the dark a bud dies of itself with .1 and of shade with .3 more, in one draw; in the open with .1.
+#[test]
+fn a_bud_dies_of_itself_or_of_shade_in_one_draw() {
+    let order = |death: &str| Order { death: expression(death), ..Order::default() };
+    let stated = Buds { order: vec![order("0.1 + 0.3 * (1 - light)")], ..Buds::default() };
+    // A hazard q joins as p + q − p q = .4.
+    let hazard = response(&[Target::Death], "(1 - light) / 3");
+    let joined = Buds { order: vec![order("0.1")], response: vec![hazard], ..Buds::default() };
+    for buds in [stated, joined] {
+        let model = compiled(&buds, 1);
+        let numbers: Vec<u32> = (0..4_000).collect();
+        let fates = |lighting| {
+            let plants = grown(&[&model], &numbers, 1, lighting);
+            for plant in &plants {
+                let fate = plant.axes.apex_fate[0];
+                assert_eq!(fate == ApexFate::Shaded, fate.cause() == Cause::Shaded);
+                let event = plant.events.as_ref().and_then(|events| events.last()).map(|event| event.kind);
+                assert_eq!(fate == ApexFate::Shaded, event == Some(EventKind::Shaded));
+            }
+            [ApexFate::Died, ApexFate::Shaded].map(|fate| plants.iter().filter(|p| p.axes.apex_fate[0] == fate).count())
+        };
+        let [died, shaded] = fates(Some(Lighting { opaque: vec![roof()], ..Lighting::default() }));
+        assert_share(died, 4_000, 0.1, "of itself");
+        assert_share(shaded, 4_000, 0.3, "of shade");
+        assert_eq!(fates(Some(Lighting::default())), [died, 0], "in the open the same buds die of themselves");
+        assert_eq!(fates(None), [died, 0]);
+    }
+}
+
+/// A bush with large leaves whose buds die in shade, and a tree that is only slowed.
+fn thicket() -> [BudModel; 2] {
+    let leafy = |death: &str| Order {
+        death: expression(death),
+        growth_unit: GrowthUnit { nodes: Count::from(2), ..GrowthUnit::default() },
+        internode: Internode { length_cm: Variate::from(6.0), ..Internode::default() },
+        leaf: Leaf {
+            per_node: Count::from(2),
+            length_cm: Variate::from(15.0),
+            width_cm: Variate::from(9.0),
+            ..Leaf::default()
+        },
+        axillary: Axillary { ramification: Law::from(0.7), ..Axillary::default() },
+        insertion_deg: Variate::from(60.0),
+        ..Order::default()
+    };
+    let orders = |death: &str| vec![leafy(death), leafy(death), leafy(death)];
+    let bush = Buds { order: orders("0.02 + 0.5 * (1 - light)"), ..Buds::default() };
+    let slowed = response(&[Target::Nodes, Target::InternodeLength], "0.2 + 0.8 * light");
+    [compiled(&bush, 9), compiled(&Buds { order: orders("0.02"), response: vec![slowed], ..Buds::default() }, 9)]
+}
+
+#[test]
+fn neither_threads_nor_the_order_of_plants_show() {
+    let [bush, tree] = thicket();
+    let models: [&dyn GrowthModel; 2] = [&bush, &tree];
+    let lighting = || Some(Lighting { voxel_m: 0.15, ..Lighting::default() });
+    let numbers: Vec<u32> = (0..12).collect();
+    let known = grown(&models, &numbers, 9, lighting());
+    let shaded = |plant: &Plant| plant.axes.apex_fate.iter().filter(|fate| **fate == ApexFate::Shaded).count();
+    assert!(known.iter().map(shaded).sum::<usize>() > 20, "buds die of shade");
+    for threads in [1, 2, 3, 8] {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads start");
+        let mut order = numbers.clone();
+        order.rotate_left(threads);
+        order.reverse();
+        let mut again = pool.install(|| grown(&models, &order, 9, lighting()));
+        again.sort_by_key(|plant| plant.id);
+        for (plant, same) in known.iter().zip(&again) {
+            assert!(columns(plant) == columns(same), "plant {} on {threads} threads", plant.id);
+            assert!(plant.frames.base == same.frames.base && plant.shade == same.shade);
+        }
+    }
+}
+
+/// One plant shades itself; in a stand more of its buds die, and far from all others it is as it is alone.
+#[test]
+fn a_plant_shades_itself_and_its_neighbours() {
+    let [bush, _] = thicket();
+    let shaded = |plants: &[Plant]| {
+        let of = |plant: &Plant| plant.axes.apex_fate.iter().filter(|fate| **fate == ApexFate::Shaded).count();
+        plants.iter().map(of).sum::<usize>()
+    };
+    let light = |voxel_m| Some(Lighting { voxel_m, ..Lighting::default() });
+    let numbers: Vec<u32> = (0..12).collect();
+    let alone: Vec<Plant> = numbers.iter().flat_map(|number| grown(&[&bush], &[*number], 9, light(0.15))).collect();
+    let together = grown(&[&bush], &numbers, 9, light(0.15));
+    let (alone, together) = (shaded(&alone), shaded(&together));
+    assert!(alone > 10 && together > alone + alone / 4, "{alone} alone, {together} together");
+}
+
+/// What is foretold is told of full light for responses, and of no light law.
+#[test]
+fn a_law_of_light_has_no_forecast() {
+    let [bush, tree] = thicket();
+    assert!(bush.expectation(9).is_none() && tree.expectation(9).is_some());
+    assert!(bush.sees_light() && tree.sees_light() && !compiled(&chimera(), 3).sees_light());
+}

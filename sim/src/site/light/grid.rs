@@ -1,0 +1,325 @@
+//! Leaf area in boxes of space (voxels): whole numbers, so that no order in which leaves are added ever shows.
+//!
+//! Voxels stand in bricks of 8 × 8 × 8; a brick is made when something falls into it, so memory goes with the leaf area
+//! and not with the box around the plants. A brick is found by its place through a table of open addresses. Area is
+//! counted in units of 2⁻³² m², a quarter of a thousandth of a mm²; a voxel holds at most 2³² m², and what is more is
+//! left out (`saturated`). Where the plot repeats, a whole number of voxels spans it, and places are taken back into
+//! it. Absent: light.
+
+use super::normals::{CLASSES, class_of};
+use super::{Borders, Lighting, Piece, Projection};
+use crate::shape::Point;
+
+/// The voxels along an edge of a brick, as a power of 2.
+pub const BITS: u32 = 3;
+/// The voxels along an edge of a brick.
+pub const EDGE: i32 = 1 << BITS;
+/// The voxels of a brick.
+pub const VOXELS: usize = 1 << (3 * BITS);
+/// The words of marks of a brick.
+const WORDS: usize = VOXELS / 64;
+/// The units of area in a m².
+pub const UNITS: f64 = 4_294_967_296.0;
+/// The farthest brick from the corner of the plot, along each axis.
+const FARTHEST: i32 = (1 << 20) - 1;
+/// No brick.
+pub const NONE: u32 = u32::MAX;
+
+/// A voxel: its place along X, Y and Z.
+pub type Voxel = [i32; 3];
+
+/// The boxes of a plot and the leaf area in them.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Grid {
+    /// The edges of a voxel, metres.
+    pub edges: [f64; 3],
+    /// The corner of voxel [0, 0, 0], metres.
+    pub origin: Point,
+    /// The number of voxels along X and Y after which the plot repeats; a number that is never reached where it does
+    /// not.
+    pub period: [i32; 2],
+    /// The place of each brick, in bricks, in the order in which they were made.
+    pub bricks: Vec<[i32; 3]>,
+    /// The leaf area of each voxel, brick by brick.
+    pub area: Vec<u64>,
+    /// The leaf area of each voxel by the class of its normal; empty where normals do not matter.
+    pub by_normal: Vec<u64>,
+    /// Whether some voxel was too full to hold all its area.
+    pub saturated: bool,
+    keeps_normals: bool,
+    table: Vec<u32>,
+    /// The least and the largest places of bricks.
+    least: [i32; 3],
+    most: [i32; 3],
+    /// Of each voxel, one bit a voxel, whether its light is wanted where it has no leaves.
+    marked: Vec<u64>,
+}
+
+impl Grid {
+    /// The empty grid of a plot.
+    pub fn of(lighting: &Lighting) -> Self {
+        let edge = lighting.voxel_m;
+        let (mut edges, mut period) = ([edge; 3], [i32::MAX; 2]);
+        if let Borders::Periodic(width) = lighting.borders {
+            for k in 0..2 {
+                let count = (width[k] / edge).round().clamp(1.0, 1e6);
+                (edges[k], period[k]) = (width[k] / count, count as i32);
+            }
+        }
+        Self {
+            edges,
+            origin: lighting.origin,
+            period,
+            bricks: Vec::new(),
+            area: Vec::new(),
+            by_normal: Vec::new(),
+            saturated: false,
+            keeps_normals: lighting.projection == Projection::OfLeaves,
+            table: vec![NONE; 64],
+            least: [i32::MAX; 3],
+            most: [i32::MIN; 3],
+            marked: Vec::new(),
+        }
+    }
+
+    /// The volume of a voxel, m³.
+    pub fn volume(&self) -> f64 {
+        self.edges[0] * self.edges[1] * self.edges[2]
+    }
+
+    /// Whether the plot repeats.
+    pub fn repeats(&self) -> bool {
+        self.period[0] != i32::MAX
+    }
+
+    /// The voxel of a place, before it is taken back into a plot that repeats.
+    pub fn voxel(&self, place: Point) -> Voxel {
+        let most = f64::from(FARTHEST * EDGE);
+        [0, 1, 2].map(|k| ((place[k] - self.origin[k]) / self.edges[k]).floor().clamp(-most, most) as i32)
+    }
+
+    /// The voxel taken back into a plot that repeats.
+    pub fn within(&self, [x, y, z]: Voxel) -> Voxel {
+        if self.repeats() { [x.rem_euclid(self.period[0]), y.rem_euclid(self.period[1]), z] } else { [x, y, z] }
+    }
+
+    /// The index of a voxel, if its brick has been made.
+    #[inline]
+    pub fn index(&self, voxel: Voxel) -> Option<usize> {
+        let brick = self.brick(voxel.map(|x| x >> BITS));
+        (brick != NONE).then(|| brick as usize * VOXELS + within_brick(voxel))
+    }
+
+    /// The number of a brick; [`NONE`] where it has not been made.
+    #[inline]
+    pub fn brick(&self, place: [i32; 3]) -> u32 {
+        let mask = self.table.len() - 1;
+        let mut slot = hash(place) & mask;
+        loop {
+            let found = self.table[slot];
+            if found == NONE || self.bricks[found as usize] == place {
+                return found;
+            }
+            slot = (slot + 1) & mask;
+        }
+    }
+
+    /// Adds the area of a piece of leaf.
+    pub fn add(&mut self, piece: &Piece) {
+        let units = (piece.area * UNITS).round();
+        // Neither negative nor no number; the cast saturates.
+        if units > 0.0 {
+            let index = self.make(self.within(self.voxel(piece.place)));
+            let class = if self.keeps_normals { class_of(piece.normal) } else { 0 };
+            self.put(index, class, units as u64);
+        }
+    }
+
+    /// Makes the voxel of a place, so that its light is found.
+    pub fn mark(&mut self, place: Point) {
+        let index = self.make(self.within(self.voxel(place)));
+        self.marked[index / 64] |= 1 << (index % 64);
+    }
+
+    /// Whether the light of a voxel is wanted: it has leaves, or has been marked.
+    pub fn is_wanted(&self, index: usize) -> bool {
+        self.area[index] > 0 || self.marked[index / 64] & (1 << (index % 64)) != 0
+    }
+
+    /// Adds all of another grid of the same plot.
+    pub fn join(&mut self, other: &Self) {
+        for (brick, place) in other.bricks.iter().enumerate() {
+            let (to, from) = (self.make(place.map(|x| x << BITS)), brick * VOXELS);
+            for word in 0..WORDS {
+                self.marked[to / 64 + word] |= other.marked[from / 64 + word];
+            }
+            for voxel in 0..VOXELS {
+                if other.area[from + voxel] == 0 {
+                    continue;
+                }
+                if self.keeps_normals {
+                    let of = |class: usize| other.by_normal[(from + voxel) * CLASSES + class];
+                    (0..CLASSES).for_each(|class| self.put(to + voxel, class, of(class)));
+                } else {
+                    self.put(to + voxel, 0, other.area[from + voxel]);
+                }
+            }
+        }
+        self.saturated |= other.saturated;
+    }
+
+    fn put(&mut self, index: usize, class: usize, units: u64) {
+        let sum = self.area[index].checked_add(units).unwrap_or_else(|| {
+            self.saturated = true;
+            u64::MAX
+        });
+        let added = sum - self.area[index];
+        self.area[index] = sum;
+        if self.keeps_normals {
+            self.by_normal[index * CLASSES + class] += added;
+        }
+    }
+
+    /// The index of a voxel, whose brick is made if need be.
+    fn make(&mut self, voxel: Voxel) -> usize {
+        let place = voxel.map(|x| x >> BITS);
+        let mut brick = self.brick(place);
+        if brick == NONE {
+            brick = self.bricks.len() as u32;
+            self.bricks.push(place);
+            self.area.resize(self.area.len() + VOXELS, 0);
+            self.marked.resize(self.marked.len() + WORDS, 0);
+            self.least = [0, 1, 2].map(|k| self.least[k].min(place[k]));
+            self.most = [0, 1, 2].map(|k| self.most[k].max(place[k]));
+            if self.keeps_normals {
+                self.by_normal.resize(self.by_normal.len() + VOXELS * CLASSES, 0);
+            }
+            self.enter(brick);
+        }
+        brick as usize * VOXELS + within_brick(voxel)
+    }
+
+    fn enter(&mut self, brick: u32) {
+        if self.bricks.len() * 2 > self.table.len() {
+            self.table = vec![NONE; self.table.len() * 4];
+            (0..self.bricks.len() as u32).for_each(|brick| self.place_in_table(brick));
+        } else {
+            self.place_in_table(brick);
+        }
+    }
+
+    fn place_in_table(&mut self, brick: u32) {
+        let mask = self.table.len() - 1;
+        let mut slot = hash(self.bricks[brick as usize]) & mask;
+        while self.table[slot] != NONE {
+            slot = (slot + 1) & mask;
+        }
+        self.table[slot] = brick;
+    }
+
+    /// Puts the bricks in the order of their places, so that nothing tells in which order they were made.
+    pub fn sort(&mut self) {
+        let mut order: Vec<usize> = (0..self.bricks.len()).collect();
+        order.sort_unstable_by_key(|&brick| self.bricks[brick]);
+        let sorted = |from: &[u64], each: usize| -> Vec<u64> {
+            if from.is_empty() {
+                return Vec::new();
+            }
+            order.iter().flat_map(|&brick| from[brick * each..(brick + 1) * each].iter().copied()).collect()
+        };
+        (self.area, self.by_normal) = (sorted(&self.area, VOXELS), sorted(&self.by_normal, VOXELS * CLASSES));
+        self.marked = sorted(&self.marked, WORDS);
+        self.bricks = order.iter().map(|&brick| self.bricks[brick]).collect();
+        self.table = vec![NONE; (self.bricks.len() * 4).next_power_of_two().max(64)];
+        (0..self.bricks.len() as u32).for_each(|brick| self.place_in_table(brick));
+    }
+
+    /// All leaf area, m².
+    pub fn leaf_area(&self) -> f64 {
+        self.area.iter().map(|units| *units as f64).sum::<f64>() / UNITS
+    }
+
+    /// The low and the high corner of all bricks, metres; `None` where there is none.
+    pub fn bounds(&self) -> Option<[Point; 2]> {
+        if self.bricks.is_empty() {
+            return None;
+        }
+        let at = |brick: [i32; 3]| [0, 1, 2].map(|k| self.origin[k] + f64::from(brick[k] << BITS) * self.edges[k]);
+        Some([at(self.least), at(self.most.map(|x| x + 1))])
+    }
+}
+
+/// The place of a voxel in its brick.
+#[inline]
+pub fn within_brick([x, y, z]: Voxel) -> usize {
+    let inner = |x: i32| (x & (EDGE - 1)) as usize;
+    (inner(z) << (2 * BITS)) | (inner(y) << BITS) | inner(x)
+}
+
+#[inline]
+fn hash([x, y, z]: [i32; 3]) -> usize {
+    let packed = (x as u32 as u64) ^ ((y as u32 as u64) << 21) ^ ((z as u32 as u64) << 42);
+    (packed.wrapping_mul(0x9e37_79b9_7f4a_7c15) >> 32) as usize
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn piece(place: Point, area: f64) -> Piece {
+        Piece { place, normal: [0.0, 0.6, 0.8], area }
+    }
+
+    #[test]
+    fn no_order_of_leaves_shows() {
+        let lighting = Lighting { projection: Projection::OfLeaves, ..Lighting::default() };
+        let pieces: Vec<Piece> = (0..3_000_u32)
+            .map(|k| {
+                let at = |prime: u32| f64::from(k.wrapping_mul(prime) % 1_009) * 0.013 - 6.0;
+                Piece { normal: [at(3), at(5), 1.0], ..piece([at(7), at(11), at(13)], f64::from(k) * 1e-6) }
+            })
+            .collect();
+        let mut all = Grid::of(&lighting);
+        pieces.iter().for_each(|piece| all.add(piece));
+        let mut parts = [Grid::of(&lighting), Grid::of(&lighting)];
+        pieces.iter().rev().enumerate().for_each(|(k, piece)| parts[k % 2].add(piece));
+        let mut joined = Grid::of(&lighting);
+        parts.iter().for_each(|part| joined.join(part));
+        all.sort();
+        joined.sort();
+        assert_eq!(all, joined);
+        let area: f64 = pieces.iter().map(|piece| piece.area).sum();
+        assert!((all.leaf_area() - area).abs() < 3_000.0 / UNITS, "{area}");
+        let by_normal: u64 = all.by_normal.iter().sum();
+        assert_eq!(by_normal, all.area.iter().sum::<u64>());
+        for (brick, place) in all.bricks.iter().enumerate() {
+            assert_eq!(all.brick(*place), brick as u32);
+        }
+        assert_eq!(all.brick([900, 0, 0]), NONE);
+    }
+
+    #[test]
+    fn a_voxel_that_is_full_says_so() {
+        let mut grid = Grid::of(&Lighting::default());
+        grid.add(&piece([0.05; 3], 4e9));
+        assert!(!grid.saturated);
+        grid.add(&piece([0.05; 3], 1e9));
+        assert!(grid.saturated && grid.area.contains(&u64::MAX));
+        for area in [f64::NAN, -1.0, 0.0] {
+            grid.add(&piece([f64::NAN, f64::INFINITY, -1e300], area));
+        }
+        grid.add(&piece([f64::NAN, f64::INFINITY, -1e300], 1.0));
+        assert_eq!(grid.bricks.len(), 2, "a place beyond all places is the farthest");
+    }
+
+    #[test]
+    fn a_plot_that_repeats_takes_places_back() {
+        let lighting = Lighting { borders: Borders::Periodic([1.04, 2.0]), ..Lighting::default() };
+        let grid = Grid::of(&lighting);
+        assert_eq!(grid.period, [10, 20]);
+        assert!((grid.edges[0] - 0.104).abs() < 1e-15);
+        let within = |place| grid.within(grid.voxel(place));
+        assert_eq!(within([0.05, 0.05, 0.05]), within([0.05 - 3.0 * 1.04, 0.05 + 4.0, 0.05]));
+        assert_eq!(within([-0.01, 2.01, -0.01]), [9, 0, -1]);
+    }
+}
