@@ -5,6 +5,7 @@
 //! light, which is their species' law.
 
 use super::Scenario;
+use super::stand::Borders as StandBorders;
 use phytomer_law::fault::{Fault, Path};
 use phytomer_sim::site::calendar::Calendar;
 use phytomer_sim::site::light::{Borders, Lighting, Projection, Sky, SkyKind, SunPath};
@@ -23,7 +24,7 @@ pub struct Light {
     /// directions in which leaves face. 0.5 if not given, as of leaves that face everywhere alike.
     pub projection: StatedProjection,
     /// The width of the plot along X and along Y, metres, if it stands in a field of such plots. If not given, open
-    /// ground is all around it.
+    /// ground is all around it, unless the stand has periodic borders.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(inner(range(min = 0.01, max = 100_000)))]
     pub period_m: Option<[f64; 2]>,
@@ -142,14 +143,24 @@ impl Scenario {
         let lighting = Lighting {
             voxel_m: light.voxel_m,
             projection,
-            borders: light.period_m.map_or(Borders::Open, Borders::Periodic),
+            borders: self.period_m(light).map_or(Borders::Open, Borders::Periodic),
             sky: light.sky.felt(),
             sun: light.sun.and_then(|sun| self.sun_path(sun, calendar)),
             wood: light.wood,
             opaque: if light.obstacles { self.site.opaque() } else { Vec::new() },
-            origin: [0.0; 3],
+            origin: self.stand.as_ref().map_or([0.0; 3], |stand| {
+                let [x, y] = stand.ground().least;
+                [x, y, 0.0]
+            }),
         };
         Some(SimLight::of(lighting))
+    }
+
+    /// The widths at which the light of a plot repeats, metres: those of the ground of a stand with periodic borders, or
+    /// those that are stated.
+    fn period_m(&self, light: &Light) -> Option<[f64; 2]> {
+        let of_stand = self.stand.as_ref().filter(|stand| stand.borders == StandBorders::Periodic);
+        of_stand.map(|stand| stand.ground().sides()).or(light.period_m)
     }
 
     fn sun_path(&self, sun: StatedSun, calendar: Option<&Calendar>) -> Option<SunPath> {
@@ -166,10 +177,21 @@ impl Scenario {
             let problem = "the columns of light are asked for, and the scenario has no light";
             faults.push(Fault::new(&Path::root().key("output").key("light"), problem, "`[light]`, or `false`"));
         }
+        let is_periodic = self.stand.as_ref().is_some_and(|stand| stand.borders == StandBorders::Periodic);
+        let borders = || Path::root().key("stand").key("borders");
+        if is_periodic && self.light.is_none() {
+            let problem = "nothing goes beyond the borders of the stand: the scenario has no light";
+            faults.push(Fault::new(&borders(), problem, "`[light]`, or open borders"));
+        }
         let Some(light) = &self.light else { return };
-        if let Some(period) = light.period_m.filter(|period| period.iter().any(|width| *width < light.voxel_m)) {
+        if is_periodic && light.period_m.is_some() {
+            let problem = "`period_m` and the borders of the stand both say where the plot repeats";
+            faults.push(Fault::new(&path.key("period_m"), problem, "the borders of the stand alone"));
+        }
+        if let Some(period) = self.period_m(light).filter(|period| period.iter().any(|width| *width < light.voxel_m)) {
             let problem = format!("a plot of {period:?} m is narrower than a box of {} m", light.voxel_m);
-            faults.push(Fault::new(&path.key("period_m"), problem, "a wider plot, or smaller boxes (`voxel_m`)"));
+            let place = if is_periodic { borders() } else { path.key("period_m") };
+            faults.push(Fault::new(&place, problem, "a wider plot, or smaller boxes (`voxel_m`)"));
         }
         if light.sun.is_some() && (self.site.latitude_deg.is_none() || self.calendar.is_none()) {
             let problem = "the path of the sun is not known without a date and a latitude";

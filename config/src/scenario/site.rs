@@ -60,6 +60,9 @@ pub struct Obstacle {
     /// Whether climbers hold to an obstacle that blocks; they do if not given. Glass is a surface to which none holds.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub holds: Option<bool>,
+    /// Whether it stops light where the scenario has `[light]`; it does if not given. Glass does not.
+    #[serde(default = "yes", skip_serializing_if = "is_yes")]
+    pub opaque: bool,
     /// Whether pictures and meshes of a plot show it. If not given they do where buds die or shoots are blocked inside
     /// and the shape has an end.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -120,6 +123,14 @@ pub struct Wind {
     pub towards_deg: f64,
 }
 
+fn yes() -> bool {
+    true
+}
+
+fn is_yes(opaque: &bool) -> bool {
+    *opaque
+}
+
 impl Default for Site {
     fn default() -> Self {
         Self {
@@ -166,11 +177,11 @@ impl Site {
         each.filter_map(|(obstacle, felt)| obstacle.drawn(felt?)).collect()
     }
 
-    /// The obstacles of a plot at the origin that stop light: those in which buds die and that have an end. One that a
-    /// fault was told of is left out.
+    /// The obstacles of a plot at the origin that stop light: those that buds do not enter and that have an end. One
+    /// that a fault was told of, or that is stated not to be opaque, is left out.
     pub(super) fn opaque(&self) -> Vec<Arc<Shape>> {
         let named = self.shapes(&mut Vec::new());
-        let inside = self.obstacle.iter().filter(|obstacle| obstacle.kills.is_inside());
+        let inside = self.obstacle.iter().filter(|obstacle| obstacle.opaque && obstacle.side().is_inside());
         let shapes = inside.filter_map(|obstacle| obstacle.felt(&named, &Path::root(), &mut Vec::new()));
         shapes.map(|felt| felt.shape).filter(|shape| has_end(shape)).collect()
     }
