@@ -18,7 +18,8 @@ use phytomer_sim::site::way::Step;
 impl<'a> Axis<'a> {
     /// The axis with what is around its bud.
     pub fn among(mut self, site: Option<&'a Site>) -> Self {
-        self.around = site.and_then(|site| Around::of(site, self.model.contact, self.plant, self.bud.axis));
+        let around = site.and_then(|site| Around::of(site, self.model.contact, self.plant, self.bud.axis));
+        self.around = around.map(Box::new);
         self
     }
 

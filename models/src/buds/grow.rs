@@ -30,8 +30,8 @@ pub(super) struct Axis<'a> {
     dimension: u32,
     /// The height of the plant, in the steps in which laws know it; 0 where none asks.
     height: u32,
-    /// What the bud can meet, where there is anything.
-    pub around: Option<Around<'a>>,
+    /// What the bud can meet, where there is anything; boxed, since most plants grow in the open.
+    pub around: Option<Box<Around<'a>>>,
     /// Whether it meets something at this step: 1 or 0.
     pub contact: u32,
     /// What the bud lacks of full light, in the steps in which laws know it; 0 where none asks.
