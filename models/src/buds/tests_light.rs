@@ -13,7 +13,7 @@ use phytomer_sim::model::GrowthModel;
 use phytomer_sim::plant::{ApexFate, Cause, EventKind, Plant};
 use phytomer_sim::plot::{Plot, Sowing};
 use phytomer_sim::shape::{Cuboid, Shape};
-use phytomer_sim::site::light::{Light, Lighting};
+use phytomer_sim::site::light::{Light, Lighting, Sky};
 use phytomer_sim::{Tick, grow};
 use std::sync::Arc;
 
@@ -58,7 +58,8 @@ fn columns(plant: &Plant) -> String {
 /// components by tick, so plants that follow it are compared with plants that do.
 #[test]
 fn at_full_light_and_without_light_no_byte_changes() {
-    let dark = || Lighting { opaque: vec![roof()], ..Lighting::default() };
+    let sky = Sky { rings: 2, azimuths: 4, ..Sky::default() };
+    let dark = || Lighting { voxel_m: 0.25, sky, opaque: vec![roof()], ..Lighting::default() };
     for buds in [chimera(), hydra()] {
         let steady = Response { reference: 1.0, ..response(&Target::ALL, "0.3 + 0 * light") };
         let changing = response(&Target::ALL, "0.2 + 0.6 * light");
@@ -106,10 +107,13 @@ fn a_bud_dies_of_itself_or_of_shade_in_one_draw() {
             }
             [ApexFate::Died, ApexFate::Shaded].map(|fate| plants.iter().filter(|p| p.axes.apex_fate[0] == fate).count())
         };
-        let [died, shaded] = fates(Some(Lighting { opaque: vec![roof()], ..Lighting::default() }));
+        // A bud or two a voxel, and few directions: light is whole or none here.
+        let coarse =
+            || Lighting { voxel_m: 1.0, sky: Sky { rings: 1, azimuths: 3, ..Sky::default() }, ..Lighting::default() };
+        let [died, shaded] = fates(Some(Lighting { opaque: vec![roof()], ..coarse() }));
         assert_share(died, 4_000, 0.1, "of itself");
         assert_share(shaded, 4_000, 0.3, "of shade");
-        assert_eq!(fates(Some(Lighting::default())), [died, 0], "in the open the same buds die of themselves");
+        assert_eq!(fates(Some(coarse())), [died, 0], "in the open the same buds die of themselves");
         assert_eq!(fates(None), [died, 0]);
     }
 }
@@ -126,7 +130,7 @@ fn thicket() -> [BudModel; 2] {
             width_cm: Variate::from(9.0),
             ..Leaf::default()
         },
-        axillary: Axillary { ramification: Law::from(0.7), ..Axillary::default() },
+        axillary: Axillary { buds: Count::from(2), ramification: Law::from(0.7), ..Axillary::default() },
         insertion_deg: Variate::from(60.0),
         ..Order::default()
     };
@@ -140,7 +144,8 @@ fn thicket() -> [BudModel; 2] {
 fn neither_threads_nor_the_order_of_plants_show() {
     let [bush, tree] = thicket();
     let models: [&dyn GrowthModel; 2] = [&bush, &tree];
-    let lighting = || Some(Lighting { voxel_m: 0.15, ..Lighting::default() });
+    let sky = Sky { rings: 3, azimuths: 5, ..Sky::default() };
+    let lighting = || Some(Lighting { voxel_m: 0.2, sky, ..Lighting::default() });
     let numbers: Vec<u32> = (0..12).collect();
     let known = grown(&models, &numbers, 9, lighting());
     let shaded = |plant: &Plant| plant.axes.apex_fate.iter().filter(|fate| **fate == ApexFate::Shaded).count();
@@ -167,10 +172,11 @@ fn a_plant_shades_itself_and_its_neighbours() {
         let of = |plant: &Plant| plant.axes.apex_fate.iter().filter(|fate| **fate == ApexFate::Shaded).count();
         plants.iter().map(of).sum::<usize>()
     };
-    let light = |voxel_m| Some(Lighting { voxel_m, ..Lighting::default() });
+    let sky = Sky { rings: 3, azimuths: 5, ..Sky::default() };
+    let light = |voxel_m| Some(Lighting { voxel_m, sky, ..Lighting::default() });
     let numbers: Vec<u32> = (0..12).collect();
-    let alone: Vec<Plant> = numbers.iter().flat_map(|number| grown(&[&bush], &[*number], 9, light(0.15))).collect();
-    let together = grown(&[&bush], &numbers, 9, light(0.15));
+    let alone: Vec<Plant> = numbers.iter().flat_map(|number| grown(&[&bush], &[*number], 9, light(0.2))).collect();
+    let together = grown(&[&bush], &numbers, 9, light(0.2));
     let (alone, together) = (shaded(&alone), shaded(&together));
     assert!(alone > 10 && together > alone + alone / 4, "{alone} alone, {together} together");
 }

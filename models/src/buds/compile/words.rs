@@ -146,10 +146,12 @@ impl Chance {
         self.slot.word(words, nth)
     }
 
-    /// The word of the first test; `None` where the outcome is the same at every point and no response changes it.
+    /// The word of the first test; `None` where the outcome is the same at every point and no response changes it, or
+    /// none but one to light.
     #[inline]
     pub fn first_word(&self, words: &[u32]) -> Option<u32> {
-        (self.fixed.is_none() || self.change.is_some()).then(|| self.word(words, 0))
+        // In full light the words of responses to light alone have not been read.
+        (self.fixed.is_none() || (self.change.is_some() && !self.light_alone)).then(|| self.word(words, 0))
     }
 
     /// The probability at a point.
