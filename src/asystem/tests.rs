@@ -191,14 +191,8 @@ fn the_wood_of_a_model_has_the_colour_of_its_tree() {
         let tree = stage.cast.trees.get("a").cloned().unwrap();
         let (plant, age) = grown::plant_of(&tree, 1, u32::MAX).unwrap();
         let mesh = phytomer_outputs::meshes::mesh_plant(&plant, age, &phytomer_outputs::meshes::MeshOptions::default());
-<<<<<<< ours
-        mesh.vertices.iter().for_each(|vertex| _ = colours.insert(vertex.tag().colour));
-||||||| base
-        mesh.vertices.iter().for_each(|vertex| drop(colours.insert(vertex.tag().colour)));
-=======
         let colours: std::collections::BTreeSet<[u8; 4]> =
             mesh.vertices.iter().map(|vertex| vertex.tag().colour).collect();
->>>>>>> theirs
         (colours, fs::read(folder.path().join("m.ply")).unwrap())
     };
     let (bark, plain) = drawn("");

@@ -33,23 +33,6 @@ const LEVEL: f64 = 3.167_124e-5;
 const CUTS: std::ops::RangeInclusive<u32> = 2..=13;
 
 /// The point at which laws are evaluated.
-<<<<<<< ours
-const HERE: At = At {
-    age: 7,
-    dimension: 5,
-    cycle: 4,
-    rank: 3,
-    bud_birth: 6,
-    bud_dimension: 4,
-    unit: 4,
-    height: 0,
-    shade: 0,
-    state: 0,
-};
-||||||| base
-const HERE: At =
-    At { age: 7, dimension: 5, cycle: 4, rank: 3, bud_birth: 6, bud_dimension: 4, unit: 4, height: 0, state: 0 };
-=======
 const HERE: At = At {
     age: 7,
     dimension: 5,
@@ -60,9 +43,9 @@ const HERE: At = At {
     unit: 4,
     height: 0,
     contact: 0,
+    shade: 0,
     state: 0,
 };
->>>>>>> theirs
 const ANY: ValueRange = ValueRange { min: f64::NEG_INFINITY, max: f64::INFINITY, what: "a number" };
 
 /// A distribution of `rand_distr`, as a function of its generator.
