@@ -42,9 +42,8 @@ pub(crate) fn fault_of(
 }
 
 /// The last age of a cohort of the trial, by its index, up to which its model alone decides how it grows in some
-/// treatment: a pest, or shade, may keep a plant small from the first tick on, obstacles that block too, and a cut from its tick
-/// on. `None`
-/// where there is no such age.
+/// treatment: a pest, or shade, may keep a plant small from the first tick on, obstacles that block too, and a cut from
+/// its tick on. `None` where there is no such age.
 pub(crate) fn foreseen_until(trial: &Trial, cohort: usize) -> Option<u32> {
     let Cohort { species, until, .. } = trial.cohorts().get(cohort)?;
     let of_treatment = |(place, treatment): (usize, &Treatment)| {

@@ -156,8 +156,8 @@ impl Scenario {
         Some(SimLight::of(lighting))
     }
 
-    /// The widths at which the light of a plot repeats, metres: those of the ground of a stand with periodic borders, or
-    /// those that are stated.
+    /// The widths at which the light of a plot repeats, metres: those of the ground of a stand with periodic borders,
+    /// or those that are stated.
     fn period_m(&self, light: &Light) -> Option<[f64; 2]> {
         let of_stand = self.stand.as_ref().filter(|stand| stand.borders == StandBorders::Periodic);
         of_stand.map(|stand| stand.ground().sides()).or(light.period_m)
