@@ -164,21 +164,24 @@ fn neither_threads_nor_the_order_of_plants_show() {
     }
 }
 
-/// One plant shades itself; in a stand more of its buds die, and far from all others it is as it is alone.
+/// One plant shades itself; in a stand more of its buds die, and less grows.
 #[test]
 fn a_plant_shades_itself_and_its_neighbours() {
     let [bush, _] = thicket();
+    let sky = Sky { rings: 3, azimuths: 5, ..Sky::default() };
+    let light = || Some(Lighting { voxel_m: 0.2, sky, ..Lighting::default() });
+    let numbers: Vec<u32> = (0..12).collect();
+    let alone: Vec<Plant> = numbers.iter().flat_map(|number| grown(&[&bush], &[*number], 9, light())).collect();
+    let together = grown(&[&bush], &numbers, 9, light());
     let shaded = |plants: &[Plant]| {
         let of = |plant: &Plant| plant.axes.apex_fate.iter().filter(|fate| **fate == ApexFate::Shaded).count();
         plants.iter().map(of).sum::<usize>()
     };
-    let sky = Sky { rings: 3, azimuths: 5, ..Sky::default() };
-    let light = |voxel_m| Some(Lighting { voxel_m, sky, ..Lighting::default() });
-    let numbers: Vec<u32> = (0..12).collect();
-    let alone: Vec<Plant> = numbers.iter().flat_map(|number| grown(&[&bush], &[*number], 9, light(0.2))).collect();
-    let together = grown(&[&bush], &numbers, 9, light(0.2));
-    let (alone, together) = (shaded(&alone), shaded(&together));
-    assert!(alone > 10 && together > alone + alone / 4, "{alone} alone, {together} together");
+    let made = |plants: &[Plant]| plants.iter().map(Plant::components).sum::<u32>();
+    let shaded = [shaded(&alone), shaded(&together)];
+    let made = [made(&alone), made(&together)];
+    assert!(shaded[0] > 100 && shaded[1] > shaded[0], "{shaded:?} die of shade, alone and together");
+    assert!(made[1] < made[0], "{made:?} components, alone and together");
 }
 
 /// What is foretold is told of full light for responses, and of no light law.
