@@ -21,7 +21,7 @@ fn stand() -> (Lighting, Grid) {
             let at = [k % edge, k / edge % edge, k / edge / edge].map(|k| f64::from(k) * 4.0 / f64::from(edge) - 1.95);
             if at.iter().map(|x| x * x).sum::<f64>() <= 4.0 {
                 let place = [0, 1, 2].map(|k| middle[k] + at[k]);
-                let area = 3.0 * (4.0 / f64::from(edge)).powi(3);
+                let area = 3.0 * (64.0 / f64::from(edge * edge * edge));
                 grid.add(&Piece { place, normal: [0.0, 0.0, 1.0], area });
             }
         }

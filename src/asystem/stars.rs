@@ -28,7 +28,7 @@ pub fn stars(tree: &Tree) -> Vec<Arc<Mesh>> {
 fn star(at: [f64; 3], radius: f64, [red, green, blue]: Colour) -> Mesh {
     let rim = |k: u32| {
         let (sin, cos) = sincos(TAU * f64::from(k % 10) / 10.0);
-        let own = if k % 2 == 0 { radius } else { NOTCH * radius };
+        let own = if k.is_multiple_of(2) { radius } else { NOTCH * radius };
         [at[0] + own * sin, at[1], at[2] + own * cos]
     };
     let tag = Tag { colour: [red, green, blue, 255], birth: 0.0, death: f32::INFINITY, component: -1, kind: NO_KIND };

@@ -222,7 +222,7 @@ mod tests {
         }
         for (faulty, says) in [
             ("[light]\nvoxel_m = 0", "voxel_m"),
-            ("[light]\nvoxel = 0.1", "the nearest is `voxel_m`"),
+            ("[light]\nvoxel = 0.1", "did you mean `voxel_m`"),
             ("[light]\nprojection = \"leafs\"", "projection"),
             ("[light]\nperiod_m = [2, 0.05]", "narrower than a box"),
             ("[light]\nsun = { diffuse = 0.4 }", "not known without a date and a latitude"),

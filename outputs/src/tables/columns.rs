@@ -350,13 +350,16 @@ pub static PLANTS: [Column; 14] = [
          by the members of a plot. Null where the scenario states no distances.",
     )
     .or_null(),
-    Column::truth("guard", "Whether the plant is a guard of its stand, which `summary` leaves out."),
     Column::truth(
         "sampled",
         "Whether `components`, `records` and `events` have rows of the plant: true unless the run has a sample that it is \
          not in.",
     ),
+    Column::truth("guard", "Whether the plant is a guard of its stand, which `summary` leaves out."),
 ];
+
+/// The columns of [`PLANTS`] in a run without guards: all but the last.
+pub const PLANTS_WITHOUT_GUARDS: usize = PLANTS.len() - 1;
 
 /// A row per treatment. A column for each factor follows, with the name of the level.
 pub static TREATMENTS: [Column; 2] =

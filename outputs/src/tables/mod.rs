@@ -126,7 +126,7 @@ impl Table {
             Self::Records => &columns::RECORDS[..columns::RECORDS_OF_POSE],
             Self::Events => &columns::EVENTS,
             Self::Summary => &columns::SUMMARY,
-            Self::Plants => &columns::PLANTS,
+            Self::Plants => &columns::PLANTS[..columns::PLANTS_WITHOUT_GUARDS],
             Self::Treatments => &columns::TREATMENTS,
             Self::Site => &columns::SITE,
         }

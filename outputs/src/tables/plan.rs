@@ -3,7 +3,7 @@
 //! A table is written under a plan, and a run folder is resumed under a plan equal to its own. Absent: limits and
 //! threads, which change no byte.
 
-use super::Table;
+use super::{Table, columns};
 use super::sample::Sample;
 use super::schema::Column;
 use phytomer_sim::Tick;
@@ -114,6 +114,10 @@ impl RunPlan {
 
     /// The columns of a table in this run.
     pub fn columns(&self, table: Table) -> &'static [Column] {
+        let has_guards = || self.members.iter().flatten().any(|member| member.guard);
+        if table == Table::Plants && has_guards() {
+            return &columns::PLANTS;
+        }
         if self.light { table.columns_in_light() } else { table.columns(self.mechanics) }
     }
 }

@@ -24,8 +24,8 @@ columns! {
         y: Double(f64) = plant.place[1],
         z: Double(f64) = plant.place[2],
         ground_area: Double(f64) = of.1.member.ground_area_m2.unwrap_or(f64::NAN),
-        guard: Bool(i8) = i8::from(of.1.member.guard),
         sampled: Bool(i8) = i8::from(of.0.sampled),
+        guard: Bool(i8) = i8::from(of.1.member.guard),
     }
 }
 

@@ -155,7 +155,7 @@ fn sides(base: [f64; 2], tip: [f64; 2], radii: [f64; 2]) -> [[f64; 2]; 4] {
 fn pentagram([x, y]: [f64; 2], radius: f64) -> Vec<[f64; 2]> {
     let corner = |k: u32| {
         let (sin, cos) = sincos(TAU * f64::from(k) / 10.0);
-        let radius = if k % 2 == 0 { radius } else { NOTCH * radius };
+        let radius = if k.is_multiple_of(2) { radius } else { NOTCH * radius };
         [x + radius * sin, y - radius * cos]
     };
     (0..10).map(corner).collect()

@@ -286,7 +286,7 @@ fn check_ending(option: &str, path: Option<&Path>, endings: &[&str]) -> Result<(
         return Err(Misuse(format!("{option} -: name a file; stdout has the estimates")));
     }
     let has = |ending: &&str| path.extension().is_some_and(|own| own.eq_ignore_ascii_case(ending));
-    if endings.iter().any(|ending| has(&ending)) {
+    if endings.iter().any(has) {
         return Ok(());
     }
     Err(Misuse(format!("{option} {}: a file that ends in .{} is expected", path.display(), endings.join(" or ."))))
