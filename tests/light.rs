@@ -50,8 +50,8 @@ fn a_coffee_keeps_in_voxels_what_exact_rays_find() {
             assert!((kept / voxels.balance().kept - 1.0).abs() < 1e-3, "its leaves keep all that is kept: {kept}");
         }
     }
-    // The light inside of the crown, the mean over places all through it. Along the axis alone the eight azimuths of the
-    // sky would run between the branches, which stand in four.
+    // The light inside of the crown, the mean over places all through it. Along the axis alone the eight azimuths of
+    // the sky would run between the branches, which stand in four.
     let step = |k: i32| 0.17 * f64::from(k) + 0.05;
     let planes = (-3..=3).flat_map(|x| (-3..=3).map(move |y| [step(x), step(y)]));
     let places: Vec<[f64; 3]> = planes.flat_map(|[x, y]| (1..10).map(move |k| [x, y, 0.19 * f64::from(k)])).collect();
@@ -63,7 +63,7 @@ fn a_coffee_keeps_in_voxels_what_exact_rays_find() {
 }
 
 const BOUNDS_EVEN: [[f64; 2]; 4] = [[0.93, 1.0], [1.0, 1.09], [1.07, 1.18], [1.27, 1.42]];
-const BOUNDS_OF_LEAVES: [[f64; 2]; 4] = [[0.85, 1.1], [0.9, 1.2], [1.0, 1.3], [1.1, 1.5]];
+const BOUNDS_OF_LEAVES: [[f64; 2]; 4] = [[0.9, 0.98], [0.97, 1.06], [1.05, 1.15], [1.26, 1.42]];
 
 /// Four coffee trees a metre apart and one far away, in light.
 fn stand(more: &str) -> Resolved {

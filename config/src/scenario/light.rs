@@ -30,8 +30,8 @@ pub struct Light {
     pub period_m: Option<[f64; 2]>,
     /// Whether wood keeps light as leaves do; it does not if not given.
     pub wood: bool,
-    /// Whether the obstacles of the site stop light: those in which buds die and that have an end on every side. They
-    /// do if not given.
+    /// Whether the obstacles of the site stop light: those that buds do not enter and that have an end on every side,
+    /// unless they state `opaque = false`. They do if not given.
     pub obstacles: bool,
     /// The sky.
     pub sky: StatedSky,

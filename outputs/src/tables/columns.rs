@@ -346,8 +346,8 @@ pub static PLANTS: [Column; 14] = [
     Column::double(
         "ground_area_m2",
         "m2",
-        "The ground of the plant: in a stand that of its layout, else that of a place of the grid of its treatment, shared \
-         by the members of a plot. Null where the scenario states no distances.",
+        "The ground of the plant: that of a place of the grid of its treatment, shared by the members of a plot. Null where \
+         the scenario states no distances.",
     )
     .or_null(),
     Column::truth(

@@ -3,9 +3,9 @@
 //! A table is written under a plan, and a run folder is resumed under a plan equal to its own. Absent: limits and
 //! threads, which change no byte.
 
-use super::{Table, columns};
 use super::sample::Sample;
 use super::schema::Column;
+use super::{Table, columns};
 use phytomer_sim::Tick;
 use phytomer_sim::site::calendars::Calendars;
 use serde::{Deserialize, Serialize};
