@@ -60,7 +60,9 @@ pub fn whole_files(plan: &Plan) -> Result<Option<Plan>> {
 impl Files {
     /// The names in the parts of a step; `None` where there are not two.
     fn parts(&self) -> Option<Vec<BTreeSet<&str>>> {
-        let names: Vec<&str> = self.names.iter().map(String::as_str).collect();
+        let mut names: Vec<&str> = self.names.iter().map(String::as_str).collect();
+        // By their numbers: one of six digits comes after all of five.
+        names.sort_by_key(|name| (name.len(), *name));
         let in_part = names.len().div_ceil(PARTS).max(1);
         let parts: Vec<BTreeSet<&str>> = names.chunks(in_part).map(|names| names.iter().copied().collect()).collect();
         (parts.len() > 1).then_some(parts)

@@ -132,7 +132,7 @@ fn parts_of(plan: &Plan) -> usize {
     plan.output_partitioning().partition_count()
 }
 
-/// The rows of all parts of a step, part after part, while all of them run.
+/// The rows of all parts of a step, part after part; the next few run meanwhile.
 #[derive(Debug)]
 pub struct InOrder {
     input: Plan,
@@ -192,7 +192,11 @@ impl ExecutionPlan for InOrder {
     }
 
     fn with_new_children(self: Arc<Self>, children: Vec<Plan>) -> Result<Plan> {
-        Ok(Arc::new(Self::of(only(children)?, self.fetch, self.at_once)))
+        let parts = Self::of(only(children)?, self.fetch, self.at_once);
+        Ok(Arc::new(match self.properties.output_ordering().cloned() {
+            Some(order) => parts.in_order_of(order),
+            None => parts,
+        }))
     }
 
     fn execute(&self, _part: usize, context: Arc<TaskContext>) -> Result<SendableRecordBatchStream> {
