@@ -133,7 +133,7 @@ impl StatedSky {
 
 impl Scenario {
     /// The light of the plots of a replicate whose ticks have these dates, of a plot at the origin; `None` without
-    /// `[light]`. Nobody asks for it yet.
+    /// `[light]`. It is found once a plot asks for it.
     pub fn lit(&self, calendar: Option<&Calendar>) -> Option<SimLight> {
         let light = self.light.as_ref()?;
         let projection = match light.projection {
