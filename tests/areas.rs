@@ -85,7 +85,7 @@ fn rows(batch: &RecordBatch) -> Vec<(i32, Stated)> {
     (0..batch.num_rows()).map(row).collect()
 }
 
-/// The triangles of each component of a file.
+/// The triangles of each component of a file. Those of a component follow one another.
 fn drawn(file: &Path) -> BTreeMap<i32, Vec<[Point; 3]>> {
     let bytes = fs::read(file).expect("a mesh");
     let end = b"end_header\n";
@@ -95,15 +95,20 @@ fn drawn(file: &Path) -> BTreeMap<i32, Vec<[Point; 3]>> {
         let line = header.lines().find_map(|line| line.strip_prefix(of)).expect("a count");
         line.trim().parse::<usize>().expect("a number")
     };
-    let four = |at: usize| <[u8; 4]>::try_from(&bytes[at..at + 4]).expect("four bytes");
-    let faces = start + count("element vertex ") * VERTEX;
+    let (vertices, faces) = bytes[start..].split_at(count("element vertex ") * VERTEX);
+    let four = |of: &[u8], at: usize| [of[at], of[at + 1], of[at + 2], of[at + 3]];
+    let single = |of: &[u8], at: usize| f64::from(f32::from_le_bytes(four(of, at)));
+    let vertices: Vec<(Point, i32)> = (vertices.chunks_exact(VERTEX))
+        .map(|of| ([single(of, 0), single(of, 4), single(of, 8)], i32::from_le_bytes(four(of, COMPONENT))))
+        .collect();
+    let faces = faces.chunks_exact(FACE).take(count("element face ")).map(|of| {
+        let corner = |at: usize| vertices[i32::from_le_bytes(four(of, at)) as usize];
+        (corner(1).1, [corner(1).0, corner(5).0, corner(9).0])
+    });
+    let faces: Vec<(i32, [Point; 3])> = faces.collect();
     let mut drawn: BTreeMap<i32, Vec<[Point; 3]>> = BTreeMap::new();
-    for face in 0..count("element face ") {
-        let corners =
-            [0, 1, 2].map(|k| start + i32::from_le_bytes(four(faces + face * FACE + 1 + 4 * k)) as usize * VERTEX);
-        let place = |at: usize| [0, 1, 2].map(|k| f64::from(f32::from_le_bytes(four(at + 4 * k))));
-        let component = i32::from_le_bytes(four(corners[0] + COMPONENT));
-        drawn.entry(component).or_default().push(corners.map(place));
+    for of_one in faces.chunk_by(|a, b| a.0 == b.0) {
+        drawn.entry(of_one[0].0).or_default().extend(of_one.iter().map(|face| face.1));
     }
     drawn
 }
@@ -113,34 +118,43 @@ fn cross(a: Point, b: Point) -> Point {
 }
 
 fn minus(a: Point, b: Point) -> Point {
-    [0, 1, 2].map(|k| a[k] - b[k])
+    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
 }
 
 fn dot(a: Point, b: Point) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
-/// Whether triangles meet in pairs of either direction at every edge.
+/// Whether triangles meet in pairs of either direction at every edge. Places are numbered in the order in which they
+/// appear, so that edges are compared as numbers.
 fn is_closed(triangles: &[[Point; 3]]) -> bool {
-    let mut edges = Vec::with_capacity(3 * triangles.len());
-    for corners in triangles.iter().map(|triangle| triangle.map(|point| point.map(f64::to_bits))) {
+    let mut places: Vec<Point> = Vec::new();
+    let mut number = |point: &Point| {
+        let known =
+            places.iter().position(|place| place[0] == point[0] && place[1] == point[1] && place[2] == point[2]);
+        known.unwrap_or_else(|| {
+            places.push(*point);
+            places.len() - 1
+        })
+    };
+    let mut edges: BTreeMap<(usize, usize), i32> = BTreeMap::new();
+    for triangle in triangles {
+        let corners = [number(&triangle[0]), number(&triangle[1]), number(&triangle[2])];
         for k in 0..3 {
             let (from, to) = (corners[k], corners[(k + 1) % 3]);
-            edges.push(if from < to { (from, to, 1) } else { (to, from, -1) });
+            *edges.entry((from.min(to), from.max(to))).or_default() += if from < to { 1 } else { -1 };
         }
     }
-    edges.sort_unstable();
-    let of_an_edge = edges.chunk_by(|a, b| (a.0, a.1) == (b.0, b.1));
-    of_an_edge.into_iter().all(|same| same.iter().map(|edge| edge.2).sum::<i32>() == 0)
+    edges.values().all(|sum| *sum == 0)
 }
 
-fn one_side(triangles: &[[Point; 3]]) -> f64 {
+fn one_side(triangles: &[[Point; 3]], closed: bool) -> f64 {
     let area = |[a, b, c]: &[Point; 3]| {
         let across = cross(minus(*b, *a), minus(*c, *a));
         0.5 * dot(across, across).sqrt()
     };
     let surface: f64 = triangles.iter().map(area).sum();
-    if is_closed(triangles) { 0.5 * surface } else { surface }
+    if closed { 0.5 * surface } else { surface }
 }
 
 fn volume(triangles: &[[Point; 3]]) -> f64 {
@@ -172,10 +186,11 @@ fn sums(folder: &Path) -> Sums {
     };
     for (component, stated) in &stated(&run) {
         let triangles = drawn.get(component).map_or(&[][..], Vec::as_slice);
+        let closed = is_closed(triangles);
         if let Some(area) = stated.area {
-            add(&mut sums.areas, &stated.kind, one_side(triangles), area);
+            add(&mut sums.areas, &stated.kind, one_side(triangles, closed), area);
         }
-        if let Some(of_table) = stated.volume.filter(|_| is_closed(triangles) && !triangles.is_empty()) {
+        if let Some(of_table) = stated.volume.filter(|_| closed && !triangles.is_empty()) {
             add(&mut sums.volumes, &stated.kind, volume(triangles), of_table);
         }
     }

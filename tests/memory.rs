@@ -161,13 +161,13 @@ const OF_A_PLANT: usize = 256;
 #[test]
 fn the_memory_of_measures_does_not_grow_with_the_run() {
     let _alone = ALONE.lock().unwrap_or_else(PoisonError::into_inner);
-    let [(few, components), (many, more)] = [200, 2_000].map(peaks_of_measures);
-    assert!(more > 9 * components && components > 100_000, "{components} components and {more}");
+    let [(few, components), (many, more)] = [100, 1_000].map(peaks_of_measures);
+    assert!(more > 9 * components && components > 50_000, "{components} components and {more}");
     for (card, (few, many)) in MEASURES.iter().zip(few.into_iter().zip(many)) {
-        println!("{}: {few} bytes of 200 plants, {many} of 2,000", card.name);
+        println!("{}: {few} bytes of 100 plants, {many} of 1,000", card.name);
         assert!(few > 100_000, "{}: {few} bytes: nothing is measured", card.name);
-        let most = few as f64 * 1.25 + (1_800 * OF_A_PLANT) as f64;
-        assert!(many as f64 <= most, "{}: {few} bytes of 200 plants, {many} of 2,000", card.name);
+        let most = few as f64 * 1.25 + (900 * OF_A_PLANT) as f64;
+        assert!(many as f64 <= most, "{}: {few} bytes of 100 plants, {many} of 1,000", card.name);
         // All rows of one column of four bytes would be more than that.
         assert!(most < 4.0 * more as f64 + few as f64, "{}: the bound tells nothing", card.name);
     }

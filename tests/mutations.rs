@@ -1,5 +1,9 @@
-//! Ten thousand mutations of good files, each taken from its text to a run folder: the result is a list of faults and
-//! no folder at all, or a whole run; never a panic, never a part of a run.
+//! Mutations of good files, each taken from its text to a run folder: the result is a list of faults and no folder at
+//! all, or a whole run; never a panic, never a part of a run.
+//!
+//! Here are 2,500 of them, and as many as `PHYTOMER_MUTATIONS` says:
+//! `PHYTOMER_MUTATIONS=10000 cargo test --test mutations` is the whole campaign. Ten thousand are checked without growth
+//! in every test of the package `phytomer-config`.
 //!
 //! The way is that of `phytomer grow`: `config::validate`, then `run::run`. A panic anywhere fails the test and shows
 //! the mutation. The files are the good fixtures and all shipped files. A broken species grows under a small sound
@@ -26,7 +30,8 @@ use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
 use std::time::{Duration, Instant};
 use tried::{SCENARIO, assert_tells, cap, grown};
 
-const MUTATIONS: u64 = 10_000;
+/// The mutations that are tried where no number is asked for.
+const MUTATIONS: u64 = 2_500;
 /// The longest time of one mutation, in the slowest build on a busy machine.
 const LONGEST: Duration = Duration::from_secs(20);
 
@@ -57,13 +62,14 @@ fn a_mutation_is_refused_or_leaves_a_whole_run() {
     let files = corpus(&good, home.path());
     let families: Vec<&[(String, Vec<u8>)]> = files.chunk_by(|a, b| family(&a.0) == family(&b.0)).collect();
     let threads = std::thread::available_parallelism().map_or(2, usize::from);
+    let mutations = mutations();
     let (next, counts) = (AtomicU64::new(0), Counts::default());
     std::thread::scope(|scope| {
         for thread in 0..threads {
             let bench = Bench::new(home.path(), thread);
             let (files, next, counts) = (&families, &next, &counts);
             scope.spawn(move || {
-                while let number @ 0..MUTATIONS = next.fetch_add(1, Relaxed) {
+                while let Some(number) = Some(next.fetch_add(1, Relaxed)).filter(|number| *number < mutations) {
                     bench.try_mutation(files, number, counts);
                 }
             });
@@ -72,10 +78,15 @@ fn a_mutation_is_refused_or_leaves_a_whole_run() {
     let [refused, grown, capped, overgrown] =
         [&counts.refused, &counts.grown, &counts.capped, &counts.overgrown].map(|count| count.load(Relaxed));
     println!("{refused} refused, {grown} grown; of these {capped} capped, {overgrown} came to their limit");
-    assert_eq!(refused + grown, MUTATIONS);
+    assert_eq!(refused + grown, mutations);
     // If nearly all mutants were refused, or none, or all reached their limits, this test would show little.
-    assert!(refused > MUTATIONS / 4 && grown > MUTATIONS / 8, "{refused} refused, {grown} grown");
+    assert!(refused > mutations / 4 && grown > mutations / 8, "{refused} refused, {grown} grown");
     assert!(overgrown < grown / 2, "{overgrown} of {grown} came to their limit");
+}
+
+fn mutations() -> u64 {
+    let asked = std::env::var("PHYTOMER_MUTATIONS").ok();
+    asked.map_or(MUTATIONS, |asked| asked.parse().expect("PHYTOMER_MUTATIONS is a number"))
 }
 
 /// The presets of one folder are much alike, and drawn as often together as any other file: of many trees with the same
