@@ -1,9 +1,9 @@
 //! Mutations of good files, each taken from its text to a run folder: the result is a list of faults and no folder at
 //! all, or a whole run; never a panic, never a part of a run.
 //!
-//! Here are 2,500 of them, and as many as `PHYTOMER_MUTATIONS` says:
-//! `PHYTOMER_MUTATIONS=10000 cargo test --test mutations` is the whole campaign. Ten thousand are checked without growth
-//! in every test of the package `phytomer-config`.
+//! Here are 2,500 of them, or as many as `PHYTOMER_MUTATIONS` says: the whole campaign is
+//! `PHYTOMER_MUTATIONS=10000 cargo test --test mutations`. The tests of the package `phytomer-config` check ten
+//! thousand without growth.
 //!
 //! The way is that of `phytomer grow`: `config::validate`, then `run::run`. A panic anywhere fails the test and shows
 //! the mutation. The files are the good fixtures and all shipped files. A broken species grows under a small sound
