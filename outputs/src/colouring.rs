@@ -1,12 +1,14 @@
-//! Colours the plants of a picture by a column of `records`, with the values that the table holds.
+//! Colours the plants of a picture by a column of `records`, with the values that the table holds, or by species.
 //!
 //! Words, booleans and orders are classes; any other value is an amount. A column in which no component has a value is
 //! refused, with the reason. Absent: the colours themselves (`phytomer_pictures`).
 
 use crate::tables::columns::RECORDS;
 use crate::tables::schema::{Column, Type};
-use crate::tables::{Membership, TableError, record_values};
+use crate::tables::{Membership, TableError, light_values, record_values};
 use phytomer_pictures::{Colouring, Scale, Subject};
+use phytomer_sim::site::light::Field;
+use std::sync::Arc;
 
 /// Why plants cannot be coloured by a column.
 #[derive(Debug, thiserror::Error)]
@@ -33,9 +35,12 @@ pub enum ColouringError {
 /// The species of each plant, which is a column of `plants`.
 const SPECIES: &str = "species";
 
+/// The share of light of leaves and buds, a column of `records` in runs that ask for it.
+const LIGHT: &str = "light";
+
 /// The names of the columns that plants can be coloured by.
 pub fn colour_columns() -> impl Iterator<Item = &'static str> {
-    RECORDS.iter().map(|column| column.name).chain([SPECIES])
+    RECORDS.iter().map(|column| column.name).chain([LIGHT, SPECIES])
 }
 
 /// The membership of the plants of a picture: plot, treatment and species, which the plants themselves do not hold.
@@ -47,6 +52,8 @@ pub struct Belonging<'a> {
     pub treatments: &'a [String],
     /// The names of the run's species.
     pub species: &'a [String],
+    /// The light of the plot of each plant as it stands, in the order of the plants; `None` where it is not known.
+    pub lights: &'a [Option<Arc<Field>>],
 }
 
 /// The values of a column of `records` for every component of some plants: one list per plant, one number per
@@ -58,6 +65,9 @@ pub struct Belonging<'a> {
 pub fn colouring(column: &str, subjects: &[Subject], of: Belonging<'_>) -> Result<Colouring, ColouringError> {
     if column == SPECIES {
         return Ok(by_species(subjects, of));
+    }
+    if column == LIGHT {
+        return by_light(subjects, of.lights);
     }
     let known = RECORDS.iter().find(|known| known.name == column);
     let column = known.ok_or_else(|| ColouringError::NoSuchColumn { column: column.to_owned() })?;
@@ -78,6 +88,22 @@ fn by_species(subjects: &[Subject], of: Belonging<'_>) -> Colouring {
     let values = subjects.iter().zip(members);
     let values = values.map(|(subject, species)| vec![species; subject.plant.components() as usize]).collect();
     Colouring { name: SPECIES.to_owned(), values, scale: Scale::Classes { first: 0, names: of.species.to_vec() } }
+}
+
+/// Each leaf and apical bud by its share of the light of open ground.
+fn by_light(subjects: &[Subject], lights: &[Option<Arc<Field>>]) -> Result<Colouring, ColouringError> {
+    let lights = lights.iter().map(Option::as_deref).chain(std::iter::repeat(None));
+    let values = subjects.iter().zip(lights).map(|(subject, light)| match light {
+        Some(light) => light_values(subject.plant, subject.age, light),
+        None => Ok(vec![f64::NAN; subject.plant.components() as usize]),
+    });
+    let values: Vec<Vec<f64>> = values.collect::<Result<_, _>>()?;
+    if values.iter().flatten().all(|value| value.is_nan()) {
+        let reason =
+            "light is known of whole plots (--plot) of scenarios with `[light]`, and of leaves and apical buds";
+        return Err(ColouringError::NothingToColour { column: LIGHT, reason });
+    }
+    Ok(Colouring { name: LIGHT.to_owned(), values, scale: Scale::Amounts })
 }
 
 /// The scale of a column: amounts, or classes with their names; `most` is the largest value.
@@ -134,7 +160,7 @@ mod tests {
     use std::sync::Arc;
 
     /// A plant without a membership.
-    const ALONE: Belonging<'_> = Belonging { members: &[], treatments: &[], species: &[] };
+    const ALONE: Belonging<'_> = Belonging { members: &[], treatments: &[], species: &[], lights: &[] };
 
     /// One upright internode.
     fn pole(length: f32, diameter: f32) -> Plant {
@@ -182,7 +208,7 @@ mod tests {
         let members = [member(1, 0, 0), member(1, 0, 7), member(2, 1, 0)];
         let treatments = ["control", "shade"].map(str::to_owned);
         let species = ["apple", "poplar"].map(str::to_owned);
-        let of = Belonging { members: &members, treatments: &treatments, species: &species };
+        let of = Belonging { members: &members, treatments: &treatments, species: &species, lights: &[] };
         let values = |column: &str| {
             let found = colouring(column, &subjects, of).expect("values");
             assert!(found.values.iter().all(|plant| plant.iter().all(|value| *value == plant[0])));

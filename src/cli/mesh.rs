@@ -12,6 +12,7 @@ mod usd;
 
 use super::afar::{self, Part};
 use super::budget::{Asked, Budget, in_words, too_few};
+use super::colouring;
 use super::constants::Constants;
 use super::out;
 use super::regrown::{Breeze, Fall, Regrown};
@@ -23,7 +24,7 @@ use dressing::Dressing;
 use formats::Format;
 use life::Growing;
 use phytomer::run::drawing::{check_size, options_of};
-use phytomer::run::picturing::{PicturedStand, pictured_plot_at, plot_mesh};
+use phytomer::run::picturing::{PicturedStand, pictured_plants_at, pictured_plot_at, plot_mesh};
 use phytomer_outputs::Destination;
 use phytomer_outputs::meshes::{Afar, MeshOptions, PlotMesh, Scene, Seen, Tolerance, fitting, nearest};
 use phytomer_outputs::usd::Organs;
@@ -43,6 +44,7 @@ Examples:
   phytomer mesh runs/coffee --plant 3 --out third.ply --sides 12
   phytomer mesh my_plant/scenario.toml --age 24 --wind 8 --time 0.40 --out frame-010.ply
   phytomer mesh under_a_roof --plot --age 12 --out plot.ply
+  phytomer mesh under_a_roof --plot --age 12 --colour-by order --out orders.ply
   phytomer mesh coffee --age 36 --tolerance 1mm --out coffee.glb
   phytomer mesh coffee --ages 1..48 --keys 12 --seconds 8 --tolerance 2mm --out life.glb
   phytomer mesh my_plant/scenario.toml --age 24 --wind 8 --rig 60 --out sway.glb
@@ -105,6 +107,7 @@ impl Mesh {
         if let (Some(_), false) = (self.rig.asked(), format.holds("rig")) {
             return Err(format.holds_no("rig").into());
         }
+        colouring::whole("--age", self.age.as_slice(), self.dressing.colour_by.as_ref())?;
         let ages: Vec<Tick> = self.age.iter().map(|age| age.tick()).chain(self.growing.last()).collect();
         match Regrown::find(&self.name, &self.constants, &ages)? {
             Ok(regrown) => {
@@ -153,6 +156,12 @@ impl Mesh {
         let mut file = Destination::create(&self.out)?;
         let own = regrown.forms.get(regrown.trial.species_of_plant(self.plant)).cloned().unwrap_or_default();
         let mut options = options_of(self.sides, &own);
+        let mut by = String::new();
+        if self.dressing.colour_by.is_some() {
+            let pictured = pictured_plants_at(&regrowth, &regrown.species(), &[self.plant], &[age])?;
+            let (colours, meaning) = self.dressing.paint(&pictured, regrown)?;
+            (options.colours, by) = (colours.into_iter().next(), meaning);
+        }
         let (seed, what) = (regrown.scenario.seed, format!("plant {} at age {}", self.plant, age.age()));
         let mut refused = None;
         regrowth.show_at(self.plant, &[age], &mut |age, plant| {
@@ -171,7 +180,7 @@ impl Mesh {
             Some(misuse) => Err(misuse.into()),
             None => {
                 let seen = self.part.in_words() + &afar::in_words(options.seen.afar);
-                self.tell(file, &format!("{what}{seen}{}", in_words(options.tolerance.as_ref())))
+                self.tell(file, &format!("{what}{seen}{}{by}", in_words(options.tolerance.as_ref())))
             }
         }
     }
@@ -203,17 +212,21 @@ impl Mesh {
         let (regrowth, species) = (regrown.regrowth(&self.breeze)?.falling(self.fall.fall), regrown.species());
         let mut file = Destination::create(&self.out)?;
         let mut within = None;
-        let pictured = pictured_plot_at(&regrowth, &species, (plot, &[at]), false)?;
+        let apart = self.dressing.colour_by.is_some();
+        let pictured = pictured_plot_at(&regrowth, &species, (plot, &[at]), apart)?;
+        let (colours, by) = self.dressing.paint(&pictured, regrown)?;
         for stand in &pictured.stands {
             let mut mesh = plot_mesh(stand, &regrowth, (plot, tick), (&species, &regrown.forms), self.sides);
             self.dress_plot(&mut mesh, stand, regrown);
+            // Kept apart, plants and bodies are in one order.
+            mesh.bodies.iter_mut().zip(&colours).for_each(|(body, of)| body.options.colours = Some(of.clone()));
             let what = format!("plot {plot} at tick {tick}");
             within = self.tolerance(&what, |tolerance| mesh.faces_within(tolerance))?;
             within.iter().for_each(|tolerance| mesh.within(*tolerance));
             format.write_plot(&mesh, &mut file).with_context(|| self.failing())?;
         }
         let plants = amounts::of(pictured.stands.iter().map(|stand| stand.members.len() as u64).sum(), "plant");
-        self.tell(file, &format!("plot {plot} at tick {tick}, {plants}{}", in_words(within.as_ref())))
+        self.tell(file, &format!("plot {plot} at tick {tick}, {plants}{}{by}", in_words(within.as_ref())))
     }
 
     /// States for each plant of a plot what of it is drawn.

@@ -10,6 +10,7 @@ mod asystem;
 mod bar;
 mod budget;
 pub mod causes;
+mod colouring;
 mod constants;
 mod convert;
 mod derive;

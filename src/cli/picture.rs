@@ -5,6 +5,7 @@
 //! Absent: drawing, which is `phytomer_outputs::pictures`'.
 
 use super::afar::{self, Part};
+use super::colouring;
 use super::constants::Constants;
 use super::out::{self, Format};
 use super::regrown::{Breeze, Fall, Regrown, finite};
@@ -16,7 +17,7 @@ use clap::{Args, ValueEnum};
 use phytomer::run::filming::{Filming, Scene};
 use phytomer::run::picturing::{Pictured, PicturedStand, pictured_plants_at, pictured_plot_at};
 use phytomer_outputs::Destination;
-use phytomer_outputs::colouring::{Belonging, ColouringError, colour_columns, colouring};
+use phytomer_outputs::colouring::{ColouringError, colour_columns};
 use phytomer_outputs::pictures::{
     Canvas, Compression, MOST_SUBJECTS, Picture as Style, View, draw_stands, sheet_of_stands, write_png,
 };
@@ -105,7 +106,8 @@ pub struct Picture {
     /// a pixel asks.
     #[arg(long, value_parser = clap::value_parser!(u8).range(3..=64))]
     sides: Option<u8>,
-    /// Colour the components by a column of `records`, or by `species`, with a legend.
+    /// Colour the components by a column of `records`, by `species`, or those of a --plot by their `light`, with a
+    /// legend.
     #[arg(long, value_name = "COLUMN", value_parser = PossibleValuesParser::new(colour_columns()), hide_possible_values = true)]
     colour_by: Option<String>,
     #[command(flatten)]
@@ -143,7 +145,7 @@ impl Picture {
     pub fn obey(self) -> Result<Verdict> {
         out::check(&self.out, "picture", &FORMATS)?;
         let ages: Vec<Moment> = if self.ages.is_empty() { self.age.into_iter().collect() } else { self.ages.clone() };
-        self.whole_where_coloured(&ages)?;
+        colouring::whole(self.age_option(), &ages, self.colour_by.as_ref())?;
         let framed = self.framed_for.map(|framed| framed.until());
         let needed: Vec<Tick> = ages.iter().map(|age| age.tick()).chain(framed).collect();
         let regrown = match Regrown::find(&self.name, &self.constants, &needed)? {
@@ -157,19 +159,6 @@ impl Picture {
             None => self.write(&regrown, ages),
             Some(framed) => self.write_framed(&regrown, framed),
         }
-    }
-
-    /// Refuses to colour plants between two ticks by a table that has whole ticks.
-    fn whole_where_coloured(&self, ages: &[Moment]) -> Result<()> {
-        let between = ages.iter().find(|age| age.share().is_some());
-        let Some((age, column)) = between.zip(self.colour_by.as_ref()) else { return Ok(()) };
-        let (option, age) = (self.age_option(), age.age());
-        Err(Misuse(format!(
-            "{option} {age}: `records` has whole ticks, so --colour-by {column} needs an age such as {} or {}",
-            age.floor(),
-            age.ceil()
-        ))
-        .into())
     }
 
     /// The picture of one age by the camera of a film of several.
@@ -285,13 +274,8 @@ impl Picture {
 
     fn draw(&self, pictured: &Pictured, regrown: &Regrown) -> std::result::Result<Canvas, ColouringError> {
         let view = self.view();
-        let subjects = pictured.subjects();
-        let treatments: Vec<String> =
-            regrown.trial.treatments().iter().map(|treatment| treatment.name.clone()).collect();
-        let members = pictured.memberships();
-        let names: Vec<String> = regrown.species().iter().map(|species| species.about.name.clone()).collect();
-        let of = Belonging { members: &members, treatments: &treatments, species: &names };
-        let colour_by = self.colour_by.as_ref().map(|column| colouring(column, &subjects, of)).transpose()?;
+        let colour_by =
+            self.colour_by.as_ref().map(|column| colouring::values(column, pictured, regrown)).transpose()?;
         let style = Style { view: view.unwrap_or(View::Front), colour_by, ..self.style() };
         let stands = pictured.stands(&regrown.forms);
         let draw = if view.is_some() { draw_stands } else { sheet_of_stands };

@@ -18,6 +18,7 @@ use phytomer_outputs::tables::Membership;
 use phytomer_sim::Tick;
 use phytomer_sim::between::Moment;
 use phytomer_sim::plant::Plant;
+use phytomer_sim::site::light::Field;
 use sha2::{Digest, Sha256};
 use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet};
@@ -45,6 +46,8 @@ pub struct PicturedStand<'p> {
     pub obstacles: Vec<Arc<Mesh>>,
     /// What is written below them.
     pub label: String,
+    /// The light of a plot, where the scenario has light.
+    pub light: Option<Arc<Field>>,
 }
 
 /// A plant of a stand.
@@ -89,6 +92,11 @@ impl Pictured {
         each.map(of).collect()
     }
 
+    /// The light of each plant of each stand, in the order of [`Pictured::subjects`].
+    pub fn lights(&self) -> Vec<Option<Arc<Field>>> {
+        self.stands.iter().flat_map(|stand| stand.members.iter().map(|_| stand.light.clone())).collect()
+    }
+
     /// Each plant of each stand by itself, for what colours them.
     pub fn subjects(&self) -> Vec<Subject<'_>> {
         let each = self.stands.iter().flat_map(|stand| stand.members.iter().map(move |member| (stand, member)));
@@ -105,7 +113,7 @@ impl PicturedStand<'_> {
     /// The same with plants of its own.
     fn owned(self) -> PicturedStand<'static> {
         let plants = self.plants.into_iter().map(|plant| Cow::Owned(plant.into_owned())).collect();
-        PicturedStand { plants, members: self.members, obstacles: self.obstacles, label: self.label }
+        PicturedStand { plants, members: self.members, obstacles: self.obstacles, label: self.label, light: self.light }
     }
 
     /// The same as a picture takes it; `forms` are those of each species.
@@ -234,7 +242,7 @@ pub(super) fn stand_of_plant<'p>(
     let (plot, treatment, age) = (of.plot, of.treatment as u32, at.tick());
     let here = PicturedMember { number, plot, treatment, sown, age, species: place, ..PicturedMember::default() };
     let label = label_of_plant(trial, species, number, told_age);
-    PicturedStand { plants: vec![plant], members: vec![here], obstacles: Vec::new(), label }
+    PicturedStand { plants: vec![plant], members: vec![here], obstacles: Vec::new(), label, light: None }
 }
 
 /// A plot at a tick, with the tick that is told of it; it is still to be filled in where its plants belong.
@@ -301,10 +309,11 @@ type Kept = (usize, Option<[u8; 32]>);
 
 /// The plants of a plot, equal ones once unless they are to be kept apart; where they belong is still to be filled in.
 pub(super) fn kept<'p>(standing: &'p [Standing<'_>], apart: bool) -> PicturedStand<'p> {
-    let mut stand =
-        PicturedStand { plants: Vec::new(), members: Vec::new(), obstacles: Vec::new(), label: String::new() };
+    let light = standing.first().and_then(|standing| standing.light.clone());
+    let (plants, members, obstacles) = (Vec::new(), Vec::new(), Vec::new());
+    let mut stand = PicturedStand { plants, members, obstacles, label: String::new(), light };
     let mut alike: BTreeMap<Glance, Vec<Kept>> = BTreeMap::new();
-    for Standing { plant, age, species } in standing {
+    for Standing { plant, age, species, .. } in standing {
         let known = alike.entry((*species, *age, plant.nodes.len(), plant.organs.len())).or_default();
         // A plant that is like no other at a glance needs no closer look.
         let own = (!known.is_empty()).then(|| look_of(plant, *age));

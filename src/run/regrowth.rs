@@ -13,8 +13,10 @@ use super::plots::Plots;
 use phytomer_config::{Resolved, Species, Trial};
 use phytomer_sim::between::{Moment, Passage};
 use phytomer_sim::plant::{Kind, NodeId, OrganId, Plant, ThreadBudget};
+use phytomer_sim::site::light::{Field, Light};
 use phytomer_sim::{Ending, GrowthModel, Plot, RecordError, Recorder, Tick, grow, grow_and_look};
 use std::borrow::Cow;
+use std::sync::Arc;
 
 /// The plants of a scenario, to be grown again.
 #[derive(Clone)]
@@ -56,6 +58,8 @@ pub struct Standing<'p> {
     pub age: Tick,
     /// Its species, as an index into the species of the run.
     pub species: usize,
+    /// The light of its plot at the tick, where the scenario has light and the whole plot has grown.
+    pub light: Option<Arc<Field>>,
 }
 
 impl<'a> Regrowth<'a> {
@@ -355,13 +359,15 @@ impl ShownTicks<'_, '_> {
         air: Option<Air>,
     ) -> Result<(), RecordError> {
         let mut standing = Vec::new();
+        let light = plot.site.light.as_ref().and_then(|Light { found, .. }| found.clone());
         for (shown, member) in shown.iter().zip(&plot.members) {
             let Some((plant, age)) = *shown else { continue };
             let mut plant = Cow::Borrowed(plant);
             if let Some(air) = air {
                 moved(plant.to_mut(), age, plot, member.species, air)?;
             }
-            standing.push(Standing { plant, age, species: self.trial.cohorts()[member.species].species });
+            let (species, light) = (self.trial.cohorts()[member.species].species, light.clone());
+            standing.push(Standing { plant, age, species, light });
         }
         (self.show)(moment, &standing)
     }

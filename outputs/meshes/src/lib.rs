@@ -144,11 +144,20 @@ pub struct MeshOptions {
     pub bark_m: Option<f32>,
     /// Whether leaf normals point out of the crown.
     pub crown_normals: bool,
+    /// The colour of each component by its number, in place of that of its kind and its age.
+    pub colours: Option<Arc<Vec<[u8; 3]>>>,
     /// How each axis sways, for vertices that tell it; `None`: they do not.
     pub swings: Option<Arc<Vec<Swing>>>,
 }
 
 impl MeshOptions {
+    /// The colour that is stated for a component.
+    #[inline]
+    fn colour_of(&self, component: u32) -> Option<[u8; 4]> {
+        let [red, green, blue] = *self.colours.as_ref()?.get(component as usize)?;
+        Some([red, green, blue, 255])
+    }
+
     /// The shape of a form.
     #[inline]
     pub fn shape(&self, form: Form) -> &forms::FormMesh {
@@ -168,6 +177,7 @@ impl Default for MeshOptions {
             seen: Seen::default(),
             bark_m: None,
             crown_normals: false,
+            colours: None,
             swings: None,
         }
     }

@@ -253,7 +253,10 @@ impl<'a> Scene<'a> {
 
     /// The colours of an organ and of its stalk.
     pub fn organ_colours(&self, organ: OrganId) -> [[u8; 4]; 2] {
-        colour::organ(self.plant, self.paints, organ, self.age)
+        match self.options.colour_of(self.plant.organs.component[organ.index()]) {
+            Some(stated) => [stated; 2],
+            None => colour::organ(self.plant, self.paints, organ, self.age),
+        }
     }
 
     /// The organs that are drawn.
@@ -362,7 +365,7 @@ impl<'a> Scene<'a> {
     fn organ_tags(&self, organ: OrganId) -> [Tag; 2] {
         let organs = &self.plant.organs;
         let place = organ.index();
-        colour::organ(self.plant, self.paints, organ, self.age).map(|colour| Tag {
+        self.organ_colours(organ).map(|colour| Tag {
             colour,
             birth: organs.birth[place] as f32,
             death: f32::INFINITY,

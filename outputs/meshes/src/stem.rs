@@ -36,6 +36,8 @@ pub struct Stems<'a> {
     line: Drawn,
     /// Bark of the same density on all stems, where it is asked for.
     pub(super) bark: Option<Bark>,
+    /// The options, for the colours that are stated for components; `None` where none are.
+    coloured: Option<MeshOptions>,
 }
 
 /// The sides of the tube that stands for a line.
@@ -109,7 +111,8 @@ impl<'a> Stems<'a> {
         let next = if sections.is_empty() { Vec::new() } else { next_on_axis(plant) };
         let (detail, line) = (Detail::of(plant, age, options), Drawn::Tube(Tube::new(OF_A_LINE), true));
         let bark = options.bark_m.map(|metres| Bark::of(plant, age, metres));
-        Self { plant, age, kinds: options.kinds, paints, forms, sections, next, detail, line, bark }
+        let coloured = options.colours.is_some().then(|| options.clone());
+        Self { plant, age, kinds: options.kinds, paints, forms, sections, next, detail, line, bark, coloured }
     }
 
     /// The internodes of a range of nodes that are drawn.
@@ -233,6 +236,11 @@ impl<'a> Stems<'a> {
     /// The bark of an internode; between two ticks it goes from the colour at the one to that at the other.
     #[inline]
     fn bark(&self, look: &InternodeLook, node: NodeId, death: Tick) -> [u8; 4] {
+        if let Some(options) = &self.coloured
+            && let Some(stated) = options.colour_of(self.plant.nodes.component[node.index()])
+        {
+            return stated;
+        }
         let birth = self.plant.nodes.birth[node.index()];
         let at = |look: &InternodeLook, age: Tick| {
             colour::wood(look.kind, &self.paints.internode(look.paint).bark, age - birth, death <= age)

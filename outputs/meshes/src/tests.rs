@@ -148,6 +148,22 @@ fn ply_rs_reads_back_every_value() {
     }
 }
 
+/// Each vertex has the colour that is stated for its component; those without one keep theirs.
+#[test]
+fn stated_colours_replace_those_of_kind_and_age() {
+    let plant = specimen();
+    let plain = mesh_plant(&plant, 6, &MeshOptions::default());
+    let colours: Vec<[u8; 3]> = (0..plant.components() as u8 - 1).map(|component| [component, 0, 7]).collect();
+    let stated = MeshOptions { colours: Some(Arc::new(colours.clone())), ..MeshOptions::default() };
+    let coloured = mesh_plant(&plant, 6, &stated);
+    assert_eq!(plain.faces, coloured.faces);
+    for (before, after) in plain.vertices.iter().zip(&coloured.vertices) {
+        let (before, after) = (before.tag(), after.tag());
+        let own = colours.get(after.component as usize).map_or(before.colour, |[r, g, b]| [*r, *g, *b, 255]);
+        assert_eq!((after.component, after.colour), (before.component, own));
+    }
+}
+
 #[test]
 fn a_component_is_drawn_while_it_stands() {
     let plant = specimen();

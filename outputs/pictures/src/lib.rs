@@ -38,7 +38,7 @@ mod value_colours;
 pub use self::png::write_png;
 pub use ::png::Compression;
 pub use canvas::Canvas;
-pub use colouring::{Colouring, Scale};
+pub use colouring::{Colouring, Colours, Scale, colours};
 pub use framing::Framing;
 pub use survey::Survey;
 

@@ -53,7 +53,7 @@ pub(crate) use plants::{PlantColumns, Standing};
 pub(crate) use recording::Recording;
 pub(crate) use records::{PlantAtAge, RecordColumns, RecordRow};
 pub use sample::{Sample, Stated};
-pub(crate) use single::{each_record, record_values};
+pub(crate) use single::{each_record, light_values, record_values};
 pub(crate) use site::{Group, SiteColumns};
 pub use summary::Summary;
 pub(crate) use summary::{SummaryColumns, summarise};

@@ -170,7 +170,7 @@ impl<'a> Bearing<'a> {
 
 impl<'a> PlantAtAge<'a> {
     /// The share of light of a leaf or a bud; NaN of the others, and where the plot has no light.
-    fn light_of(&self, component: Component, lit: LitBy<'_>) -> f32 {
+    pub(super) fn light_of(&self, component: Component, lit: LitBy<'_>) -> f32 {
         let Some(field) = lit else { return f32::NAN };
         let plant = self.plant;
         let place = |frame: &Frame, along: f32| {

@@ -8,6 +8,7 @@ use super::schema::Column;
 use super::{ComponentIndex, Membership, PlantAtAge, RecordColumns, TableError, columns};
 use phytomer_sim::Tick;
 use phytomer_sim::plant::Plant;
+use phytomer_sim::site::light::Field;
 
 /// The number of components whose rows are made at a time.
 const ROWS: usize = 512;
@@ -24,6 +25,27 @@ pub fn record_values(of: Membership, plant: &Plant, age: Tick, column: &Column) 
     each_record((of, plant, age), &[place], &mut ComponentIndex::default(), &mut |number, row| {
         values[number as usize] = row[0];
     })?;
+    Ok(values)
+}
+
+/// The shares of light of the leaves and apical buds of a plant at an age, by component number, as `records` has them:
+/// NaN for others. The light is that of the plot as the plant stands in it.
+///
+/// # Errors
+/// [`TableError::PlantTooLarge`].
+pub fn light_values(plant: &Plant, age: Tick, light: &Field) -> Result<Vec<f64>, TableError> {
+    let mut index = ComponentIndex::default();
+    index.read(plant)?;
+    index.find_tips(plant, age);
+    let lit = Some(Some(light));
+    let shown = PlantAtAge { of: Membership::default(), plant, index: &index, age, mechanics: false, lit };
+    let (mut next, mut numbers, mut values) = (0, Vec::new(), vec![f64::NAN; plant.components() as usize]);
+    while next < index.len() {
+        index.select(age, ROWS, &mut next, &mut numbers);
+        for number in &numbers {
+            values[*number as usize] = f64::from(shown.light_of(index.component(*number), Some(light)));
+        }
+    }
     Ok(values)
 }
 

@@ -4,9 +4,14 @@
 
 use super::super::Misuse;
 use super::super::afar::{no_levels, within};
+use super::super::colouring::{Painted, painted};
 use super::super::regrown::Regrown;
 use super::formats::Format;
+use anyhow::Result as Outcome;
+use clap::builder::PossibleValuesParser;
 use clap::{Args, ValueEnum};
+use phytomer::run::picturing::Pictured;
+use phytomer_outputs::colouring::colour_columns;
 use phytomer_outputs::meshes::MeshOptions;
 use phytomer_sim::plant::Plant;
 use std::sync::Arc;
@@ -25,6 +30,11 @@ pub struct Dressing {
     /// phases of the stem, for a shader that moves it.
     #[arg(long)]
     wind_data: bool,
+    /// Colour the vertices of a PLY file by a column of `records`, by `species`, or of a --plot by the `light` of
+    /// leaves and buds; amounts go from violet over green to yellow.
+    #[arg(long, value_name = "COLUMN", hide_possible_values = true)]
+    #[arg(value_parser = PossibleValuesParser::new(colour_columns()))]
+    pub colour_by: Option<String>,
 }
 
 /// Where the normals of leaves point.
@@ -45,6 +55,9 @@ impl Dressing {
     pub fn check(&self, format: Format, plot: bool, life: bool, regrown: &Regrown) -> Result<(), Misuse> {
         let crown = self.leaf_normals == LeafNormals::Crown;
         let used = [("--bark", self.bark.is_some()), ("--leaf-normals crown", crown), ("--wind-data", self.wind_data)];
+        if self.colour_by.is_some() && (format != Format::Ply || life) {
+            return Err(Misuse("--colour-by: this is for a PLY file (.ply) of one age".to_owned()));
+        }
         let Some((option, _)) = used.into_iter().find(|(_, used)| *used) else { return Ok(()) };
         if format == Format::Stl {
             return Err(Misuse(format!("{option}: STL holds triangles alone; PLY, GLB and USD hold it")));
@@ -60,6 +73,16 @@ impl Dressing {
             Some((_, cohort)) => Err(no_levels("--wind-data", regrown.species()[cohort.species])),
             None => Ok(()),
         }
+    }
+
+    /// The colours of each plant that is shown, by the column that is asked for, and what they mean in words; none
+    /// where no column is asked for.
+    ///
+    /// # Errors
+    /// A column in which nothing that is shown has a value.
+    pub fn paint(&self, pictured: &Pictured, regrown: &Regrown) -> Outcome<(Vec<Painted>, String)> {
+        let Some(column) = &self.colour_by else { return Ok((Vec::new(), String::new())) };
+        Ok(painted(column, pictured, regrown)?)
     }
 
     /// The option that gives each leaf vertices of its own, which instances of one leaf have not.
