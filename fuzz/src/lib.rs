@@ -3,9 +3,10 @@
 //!
 //! A species and a scenario go the whole way of `phytomer grow`; a mesh is read as a form, a weather file as its days,
 //! an L-system is grown with the files beside it (`lsystem`); a forest is read with its rasters (`forest`), and a tree
-//! of another program is converted; a script of the A-system is run; a run folder, one of whose files is replaced, is
-//! checked, read and resumed. `fuzz_targets` hands these functions to libFuzzer, and `examples/fuzz` runs them on
-//! stable over broken copies of what ships (`seeds`, `broken`). Absent: files that are right, which the tests have.
+//! of another program is converted; a script of the A-system is run; the plan of a ground is checked; a run folder, one
+//! of whose files is replaced, is checked, read and resumed. `fuzz_targets` hands these functions to libFuzzer, and
+//! `examples/fuzz` runs them on stable over broken copies of what ships (`seeds`, `broken`). Absent: files that are
+//! right, which the tests have.
 
 #![forbid(unsafe_code)]
 
@@ -47,7 +48,7 @@ pub const ENDINGS_OF_TREES: [&str; 3] = ["py", "xml", "json"];
 pub type Target = fn(&[u8]);
 
 /// Every target by its name.
-pub const TARGETS: [(&str, Target); 11] = [
+pub const TARGETS: [(&str, Target); 12] = [
     ("run_folder", run_folder),
     ("species", species),
     ("scenario", scenario),
@@ -59,6 +60,7 @@ pub const TARGETS: [(&str, Target); 11] = [
     ("forest", forest),
     ("tree", tree),
     ("asystem", asystem),
+    ("plan", plan),
 ];
 
 /// A temporary folder, in memory where there is some: a disk would be waited for at each input.
@@ -161,6 +163,15 @@ pub fn asystem(data: &[u8]) {
     let _ = steps.iter().try_for_each(|step| stage.take(step).map(drop)).and_then(|()| stage.end(&mut last));
     let beside = fs::read_dir(around.path()).expect("a folder").filter_map(Result::ok);
     assert!(beside.map(|entry| entry.file_name()).all(|name| name == "out"), "a file outside of its folder");
+}
+
+/// The plan of a ground: checked with the species that it names. Growing them is what the target `species` does.
+pub fn plan(data: &[u8]) {
+    let file = home().join("mutant_plan.toml");
+    fs::write(&file, data).expect("the plan is written");
+    if let Err(report) = phytomer_config::plan::plan(&file.to_string_lossy()) {
+        tried::assert_tells(&report);
+    }
 }
 
 /// A PLY as a form.

@@ -43,6 +43,7 @@ pub fn of(target: &str) -> Vec<Vec<u8>> {
         "lsystem" => of_lsystems(),
         "tree" => of_trees(),
         "asystem" => of_folder(&project().join("docs/asystem"), "asys"),
+        "plan" => of_plans(),
         ending => of_folder(&project().join("fuzz/seeds"), ending),
     }
 }
@@ -88,6 +89,11 @@ fn of_weather() -> Vec<Vec<u8>> {
     let of =
         |(ending, format)| of_folder(&folder, ending).into_iter().map(move |file| [&[choice(format)], &*file].concat());
     endings.into_iter().flat_map(of).collect()
+}
+
+/// The court that the documentation has, and those of the folder of seeds, with keys that the court leaves out.
+fn of_plans() -> Vec<Vec<u8>> {
+    [of_folder(&project().join("docs/shade"), "toml"), of_folder(&project().join("fuzz/seeds"), "plan")].concat()
 }
 
 /// Scenarios name a species or state ages; all else is a species.
