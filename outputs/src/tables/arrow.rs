@@ -52,12 +52,8 @@ fn data_type(holds: Type) -> DataType {
 /// # Errors
 /// Where zstd has no such level as the plan states.
 pub fn properties(table: Table, plan: &RunPlan) -> Result<WriterProperties, ParquetError> {
-    let base = WriterProperties::builder()
+    let base = basis(plan.compression_level)?
         .set_created_by(format!("phytomer version {}", plan.provenance.version))
-        .set_compression(Compression::ZSTD(ZstdLevel::try_new(plan.compression_level)?))
-        .set_max_row_group_row_count(Some(super::ROW_GROUP))
-        .set_statistics_enabled(EnabledStatistics::Chunk)
-        .set_dictionary_enabled(false)
         .set_sorting_columns(Some(sorting(table, plan.columns(table))))
         .set_key_value_metadata(Some(key_values(table, plan)));
     let declared = plan.columns(table).iter().fold(base, encode);
@@ -68,7 +64,17 @@ pub fn properties(table: Table, plan: &RunPlan) -> Result<WriterProperties, Parq
     Ok(factors.fold(declared, words).build())
 }
 
-fn encode(properties: WriterPropertiesBuilder, column: &Column) -> WriterPropertiesBuilder {
+/// What the files of all tables have, without the encodings of their columns.
+pub(super) fn basis(compression_level: i32) -> Result<WriterPropertiesBuilder, ParquetError> {
+    Ok(WriterProperties::builder()
+        .set_compression(Compression::ZSTD(ZstdLevel::try_new(compression_level)?))
+        .set_max_row_group_row_count(Some(super::ROW_GROUP))
+        .set_statistics_enabled(EnabledStatistics::Chunk)
+        .set_dictionary_enabled(false))
+}
+
+/// States the encoding of a column.
+pub(super) fn encode(properties: WriterPropertiesBuilder, column: &Column) -> WriterPropertiesBuilder {
     let path = || ColumnPath::from(column.name);
     match column.encoding {
         Encoding::Plain => properties.set_column_encoding(path(), ParquetEncoding::PLAIN),

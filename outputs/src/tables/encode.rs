@@ -5,13 +5,16 @@
 //! encoding needs no free thread in the pool, and a waiting shard never grows plants of another shard.
 
 use super::buffers::{self, Values};
+use super::pages::{self, Chunk, Described};
 use super::schema::Column;
 use crate::storage::space::{WaitFor, Watch};
 use arrow_array::StringArray;
 use arrow_schema::Field;
-use parquet::arrow::arrow_writer::{ArrowColumnChunk, ArrowColumnWriter, compute_leaves};
+use parquet::arrow::arrow_writer::{ArrowColumnChunk, ArrowRowGroupWriterFactory, compute_leaves};
 use parquet::errors::ParquetError;
+use parquet::file::writer::SerializedRowGroupWriter;
 use std::collections::VecDeque;
+use std::io::Write;
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 
 /// A job: one column of one row group.
@@ -22,6 +25,8 @@ pub struct Job {
     pub place: usize,
     /// The declared column.
     pub column: &'static Column,
+    /// The column as its pages need it.
+    pub described: Arc<Described>,
     /// The column as an Arrow field.
     pub field: Arc<Field>,
     /// The words of the column; empty for a column of numbers.
@@ -30,11 +35,28 @@ pub struct Job {
     pub precision_m: Option<f32>,
     /// The values of the column.
     pub values: Values,
-    /// The encoder of the column.
-    pub writer: ArrowColumnWriter,
+    /// What makes the crate's writer of the column, where it is left to that, and the number of the row group.
+    pub factory: Arc<ArrowRowGroupWriterFactory>,
+    pub number: usize,
 }
 
-type Encoded = Result<(ArrowColumnChunk, Values), ParquetError>;
+/// An encoded column: by this program, or by the crate `parquet`.
+pub enum EncodedColumn {
+    Own(Chunk),
+    OfTheCrate(ArrowColumnChunk),
+}
+
+impl EncodedColumn {
+    /// Writes it as the next column of a row group.
+    pub fn append<W: Write + Send>(self, group: &mut SerializedRowGroupWriter<'_, W>) -> Result<(), ParquetError> {
+        match self {
+            Self::Own(chunk) => chunk.append(group),
+            Self::OfTheCrate(chunk) => chunk.append_to_row_group(group),
+        }
+    }
+}
+
+type Encoded = Result<(EncodedColumn, Values), ParquetError>;
 
 /// A row group whose columns are being encoded.
 pub struct RowGroup {
@@ -134,16 +156,24 @@ impl Job {
     }
 
     fn encode(self) -> Encoded {
-        let Self { column, field, words, precision_m, mut values, mut writer, .. } = self;
+        let Self { place, column, described, field, words, precision_m, mut values, factory, number, .. } = self;
         if let Some(precision) = precision_m {
             buffers::round(&mut values, column.rounding, precision);
         }
+        if let Some(chunk) = pages::encode(&values, &described)? {
+            values.clear();
+            return Ok((EncodedColumn::Own(chunk), values));
+        }
+        let writer = factory.create_column_writers(number)?.into_iter().nth(place);
+        let Some(mut writer) = writer else {
+            return Err(ParquetError::General(format!("no writer of column {place}")));
+        };
         let (array, lent) = buffers::lend(values, column, &words)?;
         for leaf in compute_leaves(&field, &array)? {
             writer.write(&leaf)?;
         }
         drop(array);
-        Ok((writer.close()?, lent.take_back()))
+        Ok((EncodedColumn::OfTheCrate(writer.close()?), lent.take_back()))
     }
 }
 

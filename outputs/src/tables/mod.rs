@@ -19,6 +19,7 @@ mod light;
 mod membership;
 mod memory;
 mod of_species;
+mod pages;
 mod part;
 mod plan;
 mod plants;

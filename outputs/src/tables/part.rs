@@ -5,6 +5,7 @@
 
 use super::buffers::Values;
 use super::encode::{Job, Queue, RowGroup};
+use super::pages::Described;
 use super::schema::{Column, Named, Type};
 use super::sink::Sink;
 use super::{Provenance, RunPlan, Table, TableError, arrow};
@@ -16,6 +17,7 @@ use parquet::arrow::ArrowWriter;
 use parquet::arrow::arrow_writer::ArrowRowGroupWriterFactory;
 use parquet::errors::ParquetError;
 use parquet::file::writer::SerializedFileWriter;
+use parquet::schema::types::ColumnDescPtr;
 use std::collections::VecDeque;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -33,7 +35,8 @@ pub struct Part {
     queue: Arc<Queue>,
     watch: Arc<Watch>,
     file: SerializedFileWriter<HashingFile>,
-    factory: ArrowRowGroupWriterFactory,
+    factory: Arc<ArrowRowGroupWriterFactory>,
+    described: Vec<Arc<Described>>,
     in_flight: VecDeque<Arc<RowGroup>>,
     spare: Vec<Vec<Values>>,
     groups: usize,
@@ -64,16 +67,23 @@ impl Part {
         let properties = arrow::properties(table, plan).map_err(TableError::write(path))?;
         let writer = ArrowWriter::try_new(HashingFile::create(path, watch)?, schema.clone(), Some(properties));
         let (file, factory) = writer.and_then(ArrowWriter::into_serialized_writer).map_err(TableError::write(path))?;
+        let words = words_of_run(declared, plan);
+        let columns = file.schema_descr().columns().iter().zip(declared).zip(&words);
+        let described = |((column, declared), words): ((&ColumnDescPtr, &Column), &Arc<StringArray>)| {
+            Arc::new(Described::of(declared, column.clone(), file.properties().clone(), words))
+        };
+        let described = columns.map(described).collect();
         Ok(Self {
             declared,
             path: path.to_path_buf(),
             schema,
-            words: words_of_run(declared, plan),
+            words,
             precision_m: plan.precision_m.map(|precision| precision as f32),
             queue: queue.clone(),
             watch: watch.clone(),
             file,
-            factory,
+            factory: Arc::new(factory),
+            described,
             in_flight: VecDeque::new(),
             spare: Vec::new(),
             groups: 0,
@@ -81,26 +91,27 @@ impl Part {
         })
     }
 
-    fn submit(&mut self, rows: usize, columns: Vec<Values>) -> Result<(), ParquetError> {
-        let writers = self.factory.create_column_writers(self.groups)?;
+    fn submit(&mut self, rows: usize, columns: Vec<Values>) {
+        let number = self.groups;
         self.groups += 1;
         self.rows += rows as u64;
-        let group = RowGroup::of(writers.len());
+        let group = RowGroup::of(self.declared.len());
         // The buffers after the columns of this run are empty, and are dropped.
-        let columns = self.declared.iter().zip(columns).zip(writers);
-        let job = |(place, ((column, values), writer))| Job {
+        let columns = self.declared.iter().zip(columns);
+        let job = |(place, (column, values))| Job {
             group: group.clone(),
             place,
             column,
+            described: self.described[place].clone(),
             field: self.schema.fields()[place].clone(),
             words: self.words[place].clone(),
             precision_m: self.precision_m,
             values,
-            writer,
+            factory: self.factory.clone(),
+            number,
         };
         self.queue.submit(columns.enumerate().map(job).collect());
         self.in_flight.push_back(group);
-        Ok(())
     }
 
     fn write_first(&mut self) -> Result<(), ParquetError> {
@@ -110,7 +121,7 @@ impl Part {
         let mut buffers = Vec::with_capacity(columns.len());
         for column in columns {
             let (chunk, values) = column?;
-            chunk.append_to_row_group(&mut row_group)?;
+            chunk.append(&mut row_group)?;
             buffers.push(values);
         }
         row_group.close()?;
@@ -123,7 +134,7 @@ impl Sink for Part {
     type Closed = PartReport;
 
     fn put(&mut self, rows: usize, columns: Vec<Values>) -> Result<Option<Vec<Values>>, TableError> {
-        self.submit(rows, columns).map_err(TableError::write(&self.path))?;
+        self.submit(rows, columns);
         while self.in_flight.len() > IN_FLIGHT {
             self.write_first().map_err(TableError::write(&self.path))?;
         }
