@@ -29,7 +29,6 @@ use parquet::file::statistics::{Statistics, ValueStatistics};
 use parquet::file::writer::SerializedRowGroupWriter;
 use parquet::schema::types::ColumnDescPtr;
 use std::io::Write;
-use std::sync::Arc;
 
 /// A column as its pages need it.
 pub struct Described {

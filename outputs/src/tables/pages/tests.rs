@@ -7,6 +7,7 @@ use crate::tables::{ROW_GROUP, arrow};
 use ::arrow_schema::Schema;
 use parquet::arrow::ArrowWriter;
 use parquet::arrow::arrow_writer::compute_leaves;
+use std::sync::Arc;
 
 /// Draws: SplitMix64 (Steele, Lea & Flood 2014).
 struct Draw(u64);
@@ -157,26 +158,53 @@ fn columns() -> Vec<(Type, Encoding)> {
 /// Row groups around the ends of groups of bits, blocks, batches and pages.
 const ROWS: [usize; 14] = [1, 7, 8, 9, 129, 1_024, 1_025, 19_999, 20_000, 20_001, 20_480, 20_481, 45_000, ROW_GROUP];
 
+/// Whether a file of such columns with our chunks has the bytes of one with the crate's.
+fn compare((holds, encoding): (Type, Encoding), shape: Shape, nullable: bool, sizes: &[usize], draw: &mut Draw) {
+    let column = column(holds, encoding, nullable && holds != Type::Key);
+    let mut group = |rows: &usize| {
+        let share = [0, 8, 128, 250, 256][draw.below(5) as usize];
+        let null = nulls(*rows, if column.nullable { share } else { 0 }, draw);
+        values(holds, &bits(shape, *rows, draw), &null)
+    };
+    let groups: Vec<Values> = sizes.iter().map(&mut group).collect();
+    let own = file(&column, &groups, true).expect("nothing is left to the crate");
+    let theirs = file(&column, &groups, false).expect("a file");
+    let at = own.iter().zip(&theirs).position(|(own, theirs)| own != theirs);
+    assert!(own == theirs, "{holds:?} {encoding:?} {shape:?} nullable {nullable}, {sizes:?} rows: at {at:?}");
+}
+
 #[test]
 fn chunks_are_those_of_the_crate_byte_for_byte() {
     let mut draw = Draw(1988);
-    for (holds, encoding) in columns() {
+    for of in columns() {
         for (round, shape) in SHAPES.into_iter().cycle().take(2 * SHAPES.len()).enumerate() {
-            let nullable = round % 3 != 0 && holds != Type::Key;
-            let column = column(holds, encoding, nullable);
-            let mut group = |rows: usize| {
-                let share = [0, 8, 128, 250, 256][draw.below(5) as usize];
-                let null = nulls(rows, if nullable { share } else { 0 }, &mut draw);
-                values(holds, &bits(shape, rows, &mut draw), &null)
-            };
             let sizes = [ROWS[round % ROWS.len()], ROWS[(round * 5 + 3) % ROWS.len()]];
-            let groups = sizes.map(&mut group);
-            let own = file(&column, &groups, true).expect("nothing is left to the crate");
-            let theirs = file(&column, &groups, false).expect("a file");
-            let at = own.iter().zip(&theirs).position(|(own, theirs)| own != theirs);
-            assert!(own == theirs, "{holds:?} {encoding:?} {shape:?} nullable {nullable}, {sizes:?} rows: at {at:?}");
+            compare(of, shape, round % 3 != 0, &sizes, &mut draw);
         }
     }
+}
+
+/// Small groups, drawn: 5,000 here, or as many as `PHYTOMER_CHUNKS` says.
+#[test]
+fn chunks_of_drawn_groups_are_those_of_the_crate() {
+    let asked = std::env::var("PHYTOMER_CHUNKS").ok();
+    let groups: u64 = asked.map_or(5_000, |asked| asked.parse().expect("PHYTOMER_CHUNKS is a number"));
+    let all = columns();
+    let of_thread = |seed: u64| {
+        let mut draw = Draw(seed);
+        for _ in 0..groups.div_ceil(2) {
+            let of = all[draw.below(all.len() as u64) as usize];
+            let shape = SHAPES[draw.below(SHAPES.len() as u64) as usize];
+            let most = [16, 300, 3_000][draw.below(3) as usize];
+            let rows = 1 + draw.below(most) as usize;
+            compare(of, shape, draw.below(2) == 0, &[rows], &mut draw);
+        }
+    };
+    std::thread::scope(|scope| {
+        let other = scope.spawn(|| of_thread(1990));
+        of_thread(1989);
+        other.join().expect("no group differs");
+    });
 }
 
 /// A word that is not in the list is for the crate, which refuses it; and so are words longer than statistics hold.
