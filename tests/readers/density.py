@@ -96,7 +96,7 @@ if figure:
     import matplotlib.pyplot as plt
 
     picture, axes = plt.subplots(1, 2, figsize=(9, 3.8), constrained_layout=True)
-    for nitrogen, colour in [(0, "#b5651d"), (60, "#6b8e23"), (120, "#1b5e20")]:
+    for nitrogen, colour in [(0, "#b5651d"), (60, "#2f80b5"), (120, "#1b5e20")]:
         of = all_trees[all_trees["nitrogen"] == nitrogen]
         stands = of.groupby(["rho", "replicate"])["w"].mean().reset_index()
         rho, w = stands["rho"].to_numpy(), stands["w"].to_numpy()
