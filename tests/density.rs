@@ -155,7 +155,7 @@ fn the_fan_and_the_stands_agree() {
         let [low, high] = [after - 1, after].map(|k| f64::from(DENSITIES[k]));
         let share = (f64::from(*density) - low) / (high - low);
         let expected = stands[after - 1].0 * (1.0 - share) + stands[after].0 * share;
-        let stand = stands[after - 1].1 * (1.0 - share).powi(2) + stands[after].1 * share.powi(2);
+        let stand = stands[after - 1].1 * (1.0 - share) * (1.0 - share) + stands[after].1 * share * share;
         let (found, arc) = mean(trees);
         let error = (arc + stand).sqrt();
         println!("{density} a ha: {found:.1} in the fan, {expected:.1} in stands, standard error {error:.1}");
@@ -168,7 +168,7 @@ fn the_fan_and_the_stands_agree() {
 #[test]
 fn competition_is_one_for_a_lone_tree_and_falls_with_density() {
     let home = tempdir().expect("a temporary folder");
-    let lone = "name = \"lone\"\nspecies = \"coffee_fed\"\nages = { until = 24 }\n\
+    let lone = "name = \"lone\"\nspecies = \"coffee_fed\"\nplants = 1\nages = { until = 24 }\n\
         [light]\nvoxel_m = 0.2\n[output]\nlight = true\n";
     write(home.path(), "lone.toml", lone);
     run(home.path(), &["grow", "lone.toml", "--quiet", "--name", "lone"]).ending(0);
