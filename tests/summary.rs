@@ -10,7 +10,8 @@ mod read;
 #[path = "program/side_by_side.rs"]
 mod side_by_side;
 
-use phytomer::config::scenario::{Every, Record};
+use phytomer::config::scenario::stand::Layout;
+use phytomer::config::scenario::{Every, Laid, Record, Scenario};
 use phytomer::config::{self, Kind, Resolved, SPECIES_ALONE_UNTIL, presets, validate, validate_species};
 use phytomer::run::{self, Progress, Settings};
 use read::Columns;
@@ -88,6 +89,27 @@ fn all() -> Vec<Resolved> {
     all
 }
 
+/// A few plants of a stand, in each replicate and treatment: two of a row, the inner ones of a spoke, of a list one of
+/// each species, sown at an age that is tested.
+fn thin(scenario: &mut Scenario, last_sowing: u32) {
+    let Some(stand) = &mut scenario.stand else { return };
+    match &mut stand.layout {
+        Layout::Rows(rows) | Layout::Triangular(rows) => {
+            let guards = 2 * stand.guard_rows;
+            (rows.rows, rows.plants, rows.size_m) = (Some(guards + 2), Some(guards + 1), None);
+        }
+        Layout::Nelder(fan) => (fan.spokes, fan.arcs) = (1, fan.arcs.min(2 * stand.guard_rows + 1)),
+        Layout::Places(places) => {
+            let mut species = BTreeSet::new();
+            places.at.retain(|place| species.insert(place.species.clone()));
+            places.at.iter_mut().for_each(|place| place.sown = place.sown.map(|sown| sown.min(last_sowing)));
+        }
+        Layout::Hills(_) | Layout::Random(_) => {}
+    }
+    scenario.laid = Laid::default();
+    scenario.plants = scenario.members();
+}
+
 /// The scenario with two plots, at an age that is quickly tested, with all tables and the columns of mechanics. Of the
 /// members of its plots the first of each species is kept.
 fn small(mut resolved: Resolved) -> Resolved {
@@ -106,6 +128,8 @@ fn small(mut resolved: Resolved) -> Resolved {
     scenario.plants = 2 * scenario.members();
     let last_sowing = until - 1;
     scenario.member.iter_mut().for_each(|member| member.sown = member.sown.min(last_sowing));
+    thin(scenario, last_sowing);
+    resolved.treatments.iter_mut().for_each(|treatment| thin(&mut treatment.scenario, last_sowing));
     scenario.meshes = None;
     scenario.output.mechanics = true;
     scenario.output.float_precision_m = None;
