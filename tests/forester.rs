@@ -7,11 +7,14 @@
 mod program;
 mod read;
 
-use phytomer::config::{Kind, presets};
+use phytomer::config::{Kind, presets, validate};
+use phytomer::run::picturing::pictured_plot;
+use phytomer::run::plots::Plots;
+use phytomer::run::regrowth::Regrowth;
 use phytomer_measures::line::Pairs;
 use program::{hashes, run, write};
 use read::Columns;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use tempfile::tempdir;
@@ -285,4 +288,23 @@ fn tomatoes_stay_under_glass_and_out_of_the_path() {
     assert!((light - mean(&air).0).abs() < 0.02 && light > 0.5, "{light} under glass, {} in the air", mean(&air).0);
     let dark = young(&text.replacen("opaque = false", "opaque = true", 1), "dark");
     assert!(dark.iter().all(|light| *light < 1e-9), "light comes through walls of stone");
+}
+
+/// A picture of a stand has each plant where it grew, though its place is drawn.
+#[test]
+fn a_stand_is_drawn_where_it_grew() {
+    let folder = tempdir().unwrap();
+    write(folder.path(), "grown.toml", &stand(12, 4, 3, "[3]"));
+    let file = folder.path().join("grown.toml").display().to_string();
+    let resolved = validate(&file).unwrap_or_else(|report| panic!("{}", report.render(false)));
+    let pictured = pictured_plot(&Regrowth::of(&resolved), &resolved.all_species(), (0, &[3]), true).expect("it grows");
+    let plots = Plots::of(resolved.trial(), resolved.models());
+    let corner = plots.plot_place(0);
+    let mut places = BTreeSet::new();
+    for member in &pictured.stands[0].members {
+        let grown = plots.place_of(member.number);
+        assert!((0..3).all(|k| (corner[k] + member.place[k] - grown[k]).abs() < 1e-9), "plant {}", member.number);
+        places.insert(member.place.map(f64::to_bits));
+    }
+    assert!(places.len() > 8 && places.len() == pictured.stands[0].members.len(), "{} places", places.len());
 }
