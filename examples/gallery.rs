@@ -206,7 +206,7 @@ fn in_forms(name: &str, forms: &[Form]) -> Result<Pictured> {
 /// Draws the first plot of a scenario, if it has several members, and returns its caption.
 fn plot(name: &str, folder: &Path) -> Result<String> {
     let found = validate(name).map_err(|report| anyhow!(report.render(false)))?;
-    if found.scenario.member.is_empty() {
+    if found.scenario.members() < 2 {
         return Ok(String::new());
     }
     let (tick, species) = (found.scenario.ages.until, found.all_species());

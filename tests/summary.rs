@@ -111,7 +111,7 @@ fn thin(scenario: &mut Scenario, last_sowing: u32) {
 }
 
 /// The scenario with two plots, at an age that is quickly tested, with all tables and the columns of mechanics. Of the
-/// members of its plots the first of each species is kept.
+/// members of its plots the first of each species is kept, of a stand one plant.
 fn small(mut resolved: Resolved) -> Resolved {
     let scenario = &mut resolved.scenario;
     let until = scenario.ages.until;
@@ -123,6 +123,8 @@ fn small(mut resolved: Resolved) -> Resolved {
     let every = until.div_ceil(AGES);
     scenario.ages.until = until;
     scenario.ages.record = Record::Every(Every { every, from: Some(until - every * ((until - 1) / every)) });
+    // Of a stand one tree is kept.
+    scenario.stand = None;
     let mut species = BTreeSet::new();
     scenario.member.retain(|member| species.insert(member.species.clone()));
     scenario.plants = 2 * scenario.members();

@@ -31,6 +31,7 @@ mod report;
 mod resolved;
 pub mod scenario;
 mod schema;
+mod seeds;
 mod solids;
 mod source;
 mod species;

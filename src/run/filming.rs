@@ -238,7 +238,7 @@ impl Scene<'_> {
         let places: Vec<[f64; 3]> = match self.whose {
             _ if self.orbit == 0.0 => return None,
             Whose::Plant(_) => Vec::new(),
-            Whose::Plot(plot) => members_of(trial, plot).map(|plant| trial.member_of(plant).place()).collect(),
+            Whose::Plot(plot) => members_of(trial, plot).map(|plant| trial.place_in_plot(plant)).collect(),
         };
         let bound = |k: usize, sign: f64| places.iter().map(|place| sign * place[k]).fold(f64::NEG_INFINITY, f64::max);
         let middle = |k: usize| if places.is_empty() { 0.0 } else { 0.5 * (bound(k, 1.0) - bound(k, -1.0)) };

@@ -89,7 +89,7 @@ fn plot_keyed(
     })?;
     let body = |(plant, maker): (u32, KeyMaker)| Body {
         name: format!("plant {plant}"),
-        place: trial.member_of(plant).place(),
+        place: trial.place_in_plot(plant),
         keyed: maker.finish(),
     };
     let mut bodies: Vec<Body> = makers.into_iter().map(body).collect();

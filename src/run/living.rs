@@ -56,7 +56,7 @@ pub fn lives(
     let ticks: Vec<f32> = ages.iter().map(|age| age.age() as f32).collect();
     let place = |plant: u32| match whose {
         Whose::Plant(_) => [0.0; 3],
-        Whose::Plot(_) => regrowth.trial().member_of(plant).place().map(|x| x as f32),
+        Whose::Plot(_) => regrowth.trial().place_in_plot(plant).map(|x| x as f32),
     };
     let mut living = Living { lives: Vec::new(), options: Vec::new(), members: Vec::new(), obstacles: None };
     for (number, (plant, Growing { maker, species, sown })) in growing.into_iter().enumerate() {

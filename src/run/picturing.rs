@@ -254,7 +254,7 @@ pub(super) fn stand_of_plot<'p>(
 ) -> PicturedStand<'p> {
     let of_plot = trial.plot(plot);
     for member in &mut stand.members {
-        let place = trial.member_of(member.number).place();
+        let place = trial.place_in_plot(member.number);
         (member.plot, member.sown, member.place) = (plot, at.tick().saturating_sub(member.age), place);
         member.treatment = of_plot.treatment as u32;
     }

@@ -171,7 +171,7 @@ impl View<'_> {
         let trial = self.regrowth.trial();
         for (number, grown) in growing {
             let place = match whose {
-                Whose::Plot(_) => trial.member_of(number).place(),
+                Whose::Plot(_) => trial.place_in_plot(number),
                 Whose::Plant(_) => [0.0; 3],
             };
             let of = trial.plant(number);
