@@ -31,6 +31,7 @@ mod report;
 mod resolved;
 pub mod scenario;
 mod schema;
+mod skylight;
 mod solids;
 mod source;
 mod species;
