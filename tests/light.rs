@@ -84,7 +84,8 @@ fn a_coffee_keeps_in_voxels_what_exact_rays_find() {
     let [exact, voxels] = [mean(&*fields[0]), mean(&*fields[1])];
     // Between the places light differs by chance, and over them all by what voxels keep too much or too little.
     let off = |place: &[f64; 3]| fields[0].share_at(*place) - fields[1].share_at(*place);
-    let spread = places.iter().map(|place| (off(place) - (exact - voxels)).powi(2)).sum::<f64>();
+    let squared = |x: f64| x * x;
+    let spread = places.iter().map(|place| squared(off(place) - (exact - voxels))).sum::<f64>();
     let error = (spread / places.len() as f64 / (places.len() - 1) as f64).sqrt();
     let bias = (of_leaves - 1.0).abs() * (1.0 - exact);
     println!("light in the crown: {voxels:.3} in voxels, {exact:.3} by rays, ± {error:.4} and a bias of {bias:.4}");
@@ -136,7 +137,9 @@ fn the_columns_of_light_agree() {
         let shares = of_member(member, &competition);
         let last = [shares[1], shares[3]];
         match member {
-            4 => assert!(last.iter().all(|share| (share - 1.0).abs() < 0.02), "far from all others: {last:?}"),
+            // 29 m away no beam of 5 × 8 directions that meets it has met another: the lowest, at 2.7°, come from 22.5°
+            // aside, 12 m beside the others.
+            4 => assert!(last.iter().all(|share| (share - 1.0).abs() < 1e-9), "far from all others: {last:?}"),
             _ => assert!(last.iter().all(|share| (0.3..0.995).contains(share)), "among neighbours: {last:?}"),
         }
     }
