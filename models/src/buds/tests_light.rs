@@ -167,9 +167,9 @@ fn neither_threads_nor_the_order_of_plants_show() {
     }
 }
 
-/// Buds that read the light and do not answer it are the same alone and among neighbours. The beams that meet a voxel of
-/// one plant are the same ones, and meet all that they met and more: so no bud has more light than alone, and all of
-/// those that die of shade do so the sooner.
+/// Buds that read the light and do not answer it are the same alone and among neighbours. The beams that meet a voxel
+/// of one plant are the same ones, and meet all that they met and more: so no bud has more light than alone, and those
+/// that die of shade do so the sooner.
 #[test]
 fn no_bud_has_more_light_among_neighbours() {
     let deaf = bush("0.02", vec![response(&[Target::Death], "0 * light")]);

@@ -3,10 +3,10 @@
 //!
 //! On open ground the beams stand on a lattice in the plane across them, an edge of a voxel apart, and only those are
 //! followed that meet a brick: for each tile of 8 × 8 beams, the stretches along the beams in which bricks lie. Where
-//! the plot repeats, beams start from one plot of a level above all plants, as many as the plot is wide across them, and
-//! lie about a voxel that goes with the plants: whole voxels farther, plants have the same light to the last bit.
-//! Each row is shifted by the golden ratio against the one before, so that no beams follow one another through the same
-//! planes of voxels. Absent: what becomes of a beam (`beam`).
+//! the plot repeats, beams start from one plot of a level above all plants, as many as the plot is wide across them,
+//! and lie about a voxel that goes with the plants: whole voxels farther, plants have the same light to the last bit.
+//! Each row is shifted by the golden ratio against the one before, so that no beams follow one another through the
+//! same planes of voxels. Absent: what becomes of a beam (`beam`).
 
 use super::Source;
 use super::grid::{BITS, EDGE, Grid};
