@@ -2,8 +2,8 @@
 //! exact rays on the same leaves.
 //!
 //! Leaves that let nothing pass keep of a beam what they cover. Both count a lattice of points, so each is off by its
-//! own standard error, √(.0724 B a³) with the outline B and the mesh a (`phytomer_pictures::silhouette`). The bounds are
-//! four errors of the difference.
+//! own standard error, √(.0724 B a³) with the outline B and the mesh a (`phytomer_pictures::silhouette`). The bounds
+//! are four errors of the difference.
 
 use crate::rays::{Rays, leaves};
 use crate::{SKY, coffee};

@@ -1,9 +1,9 @@
 //! The silhouette of a mesh along a direction, as the rasteriser of pictures draws it: its area and the length of its
 //! outline, both by counting samples.
 //!
-//! The area of a shape by a lattice of points of the mesh a has the standard error √(.0724 B a³), where B is the length
-//! of its outline (Gundersen & Jensen 1987, *Journal of Microscopy* 147: 229–263, point counting: a coefficient of error
-//! of √(.0724 B / √A) n^(−3/4) with n points in the area A). Absent: colours, and what is behind.
+//! The area of a shape by a lattice of points of the mesh a has the standard error √(.0724 B a³), where B is the
+//! length of its outline (Gundersen & Jensen 1987, *Journal of Microscopy* 147: 229–263, point counting: a coefficient
+//! of error of √(.0724 B / √A) n^(−3/4) with n points in the area A). Absent: colours, and what is behind.
 
 use super::film::Film;
 use super::raster::{UPRIGHT, Window};
