@@ -1,14 +1,24 @@
 //! The light in a stand: a direction through its voxels, beside one plain pass over them, which asks of each voxel
 //! alone what it keeps of a beam.
 //!
-//! The stand is 25 crowns of leaves, 282,000 voxels in bricks. Absent: growth in light (`poplar_30y` grows without).
+//! The stand is 25 crowns of leaves, 650,000 voxels in bricks, of which 411,000 have leaves. With `PHYTOMER_PAIRS=3`,
+//! `cargo bench --bench light -- ratios` tells what light costs whole stands: a tick of a hundred poplars, ten thousand
+//! coffee trees to four years, and the same stand by one thread and by two. Absent: runs with tables.
+
+#[path = "specimen/turns.rs"]
+mod turns;
 
 use criterion::{Criterion, SamplingMode, Throughput, criterion_group, criterion_main};
+use phytomer::config::{Resolved, validate};
+use phytomer::run::seed_of;
 use phytomer::sim::math::exp;
 use phytomer::sim::site::light::grid::{Grid, UNITS};
-use phytomer::sim::site::light::{Field, Lighting, Piece, Sky};
+use phytomer::sim::site::light::{Field, Light, Lighting, Piece, Sky};
+use phytomer::sim::{Plot, Sowing, Tick, grow};
+use std::cell::RefCell;
 use std::hint::black_box;
-use std::time::Duration;
+use std::time::{Duration, Instant};
+use turns::by_turns;
 
 /// 25 crowns of 2 m radius, 3.4 m apart, with 3 m² of leaves in each m³, in voxels of 0.125 m.
 fn stand() -> (Lighting, Grid) {
@@ -52,9 +62,120 @@ fn light(criterion: &mut Criterion) {
     group.finish();
 }
 
+/// So many trees of a species in rows, in light if voxels are stated.
+fn sown(resolved: &Resolved, (trees, apart): (u32, f64), voxel_m: Option<f64>) -> Plot<'_> {
+    let wide = f64::from(trees).sqrt().ceil() as u32;
+    let sowing = |tree: u32| {
+        let place = [f64::from(tree % wide) * apart, f64::from(tree / wide) * apart, 0.0];
+        Sowing { species: 0, seed: seed_of(&resolved.scenario, tree), place, sown: 0 }
+    };
+    let mut plot = Plot::new(0, vec![resolved.model.as_ref()], &(0..trees).map(sowing).collect::<Vec<_>>());
+    plot.site.light = voxel_m.map(|voxel_m| Light::of(Lighting { voxel_m, ..Lighting::default() }));
+    plot.ask_light();
+    plot
+}
+
+fn grown(mut plot: Plot<'_>, until: Tick) -> Plot<'_> {
+    grow(&mut plot, until, &mut ()).expect("nothing is recorded");
+    plot.stand(until);
+    plot
+}
+
+fn components(plot: &Plot) -> u64 {
+    plot.plants.iter().map(|plant| u64::from(plant.components())).sum()
+}
+
+fn species(name: &str) -> Resolved {
+    validate(name).unwrap_or_else(|report| panic!("{}", report.render(false)))
+}
+
+/// The ratios of whole stands, where `PHYTOMER_PAIRS` states how often; `PHYTOMER_TREES` coffee trees, 10,000 if not
+/// stated.
+fn ratios(_: &mut Criterion) {
+    let stated = |name: &str| std::env::var(name).ok().and_then(|number| number.parse::<u32>().ok());
+    let Some(pairs) = stated("PHYTOMER_PAIRS").map(|pairs| pairs as usize) else { return };
+    a_pass(pairs);
+    a_tick_of_poplars(pairs);
+    coffee_trees(pairs, stated("PHYTOMER_TREES").unwrap_or(10_000));
+    threads();
+}
+
+/// A direction against a plain pass.
+fn a_pass(pairs: usize) {
+    let (lighting, grid) = stand();
+    let sources = Sky::default().sources();
+    let one = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("a thread");
+    let g = 0.5 / UNITS / grid.volume() * lighting.voxel_m;
+    let passes = || {
+        for _ in 0..sources.len() {
+            black_box(grid.area.iter().map(|units| 1.0 - exp(-g * *units as f64)).collect::<Vec<f64>>());
+        }
+    };
+    let light = || {
+        one.install(|| black_box(Field::in_grid(&lighting, grid.clone(), &sources)));
+    };
+    by_turns("light: a direction over a plain pass (aim: 25)", pairs, || (), light, passes);
+    let bytes = 24 * grid.area.len();
+    println!(
+        "light: {} voxels in bricks, {} with leaves, {bytes} bytes of area and light",
+        grid.area.len(),
+        filled(&grid)
+    );
+}
+
+/// The last tick of a hundred poplars of 10⁵ components, in voxels of 0.5 m, with its light and without.
+fn a_tick_of_poplars(pairs: usize) {
+    let poplar = species("poplar");
+    let large_at = |tick: &Tick| components(&grown(sown(&poplar, (1, 4.0), None), *tick)) >= 100_000;
+    let until = (5..60).find(large_at).expect("a poplar of 100,000 components");
+    let before = grown(sown(&poplar, (100, 4.0), Some(0.5)), until - 1);
+    let plot: RefCell<Plot> = RefCell::new(before.clone());
+    let tick = |lit: bool| {
+        let mut plot = plot.borrow_mut();
+        if !lit {
+            plot.site.light = None;
+        }
+        plot.site.begin(until);
+        plot.grow_to(until).expect("room to grow");
+        plot.stand(until);
+    };
+    let name = format!("light: tick {until} of 100 poplars with light over the same without (aim: 1 / .7 = 1.43)");
+    by_turns(&name, pairs, || _ = plot.replace(before.clone()), || tick(true), || tick(false));
+    println!("light: those poplars have {} components", components(&plot.borrow()));
+}
+
+/// Coffee trees 2.5 m apart to four years.
+fn coffee_trees(pairs: usize, trees: u32) {
+    let coffee = species("coffee");
+    for voxel_m in [0.5, 0.25] {
+        let lit = || {
+            black_box(grown(sown(&coffee, (trees, 2.5), Some(voxel_m)), 48));
+        };
+        let open = || {
+            black_box(grown(sown(&coffee, (trees, 2.5), None), 48));
+        };
+        let name =
+            format!("light: {trees} coffee trees to 48 months in voxels of {voxel_m} m over those without (aim: 10)");
+        by_turns(&name, pairs, || (), lit, open);
+    }
+}
+
+/// A thousand coffee trees in light by one thread over two; by the clock, so on a machine that does nothing else.
+fn threads() {
+    let coffee = species("coffee");
+    let time = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
+        let start = Instant::now();
+        pool.install(|| black_box(grown(sown(&coffee, (1_000, 2.5), Some(0.25)), 48)));
+        start.elapsed().as_secs_f64()
+    };
+    let [one, two] = [1, 2].map(|threads| (0..3).map(|_| time(threads)).fold(f64::INFINITY, f64::min));
+    println!("light: 1,000 coffee trees in light, one thread over two by the clock: {:.2} x (aim: 1.8)", one / two);
+}
+
 fn filled(grid: &Grid) -> usize {
     grid.area.iter().filter(|units| **units > 0).count()
 }
 
-criterion_group!(benches, light);
+criterion_group!(benches, light, ratios);
 criterion_main!(benches);

@@ -1,10 +1,19 @@
-//! Light in whole runs: the voxels of a coffee tree against exact rays on the triangles of its leaves, and scenarios
-//! with light, whose tables agree with one another on any number of threads.
+//! Light in whole runs: the voxels of a coffee tree against exact rays on the triangles of its leaves (`rays`), these
+//! against what the rasteriser draws (`silhouettes`), plots that are shifted (`shifted`), the radiation of the weather
+//! (`radiation`), and scenarios with light, whose tables agree with one another on any number of threads.
 //!
 //! Absent: the closed forms of the light model (`sim/src/site/light`), and what buds make of light (`buds`).
 
+#[path = "program/absent.rs"]
+mod absent;
+#[path = "light/radiation.rs"]
+mod radiation;
 #[path = "light/rays.rs"]
 mod rays;
+#[path = "light/shifted.rs"]
+mod shifted;
+#[path = "light/silhouettes.rs"]
+mod silhouettes;
 
 use arrow_array::RecordBatch;
 use arrow_array::cast::AsArray;
@@ -38,13 +47,27 @@ fn a_coffee_keeps_in_voxels_what_exact_rays_find() {
     let rays = Rays::of(&plot.plants[0], 36, 0.004);
     let exact = rays.light(&canopy, &SKY.sources());
     assert!(exact.balance().kept > 0.5, "{:?}", exact.balance());
+    let mut of_leaves = 0.0;
     for (projection, bounds) in [(Projection::Even(0.5), BOUNDS_EVEN), (Projection::OfLeaves, BOUNDS_OF_LEAVES)] {
+        let mut smaller = 0.0;
         for (voxel_m, [low, high]) in [0.05, 0.1, 0.2, 0.4].into_iter().zip(bounds) {
             let lighting = Lighting { voxel_m, projection, ..Lighting::default() };
             let voxels = lighting.light(&canopy, &SKY.sources());
             let ratio = voxels.balance().kept / exact.balance().kept;
             println!("{projection:?}, voxels of {voxel_m} m: {ratio:.3} of the exact");
             assert!((low..high).contains(&ratio), "{projection:?}, {voxel_m} m: {ratio}");
+            // 1 − e^(−x) is concave: leaves that are spread over a larger voxel, of which the smaller ones are parts,
+            // keep more.
+            assert!(ratio > smaller, "{projection:?}, {voxel_m} m: {ratio}, in smaller voxels {smaller}");
+            smaller = ratio;
+            // No leaf keeps more than all that it meets.
+            if projection == Projection::Even(0.5) {
+                let open: f64 = SKY.sources().iter().map(|source| source.weight / source.towards[2]).sum();
+                let met = 0.5 * open * plot.leaf_area(36);
+                assert!(voxels.balance().kept < met, "{voxel_m} m: {met}");
+            } else if voxel_m == 0.1 {
+                of_leaves = ratio;
+            }
             let mut kept = 0.0;
             canopy.pieces(0, voxel_m / 2.0, &mut |piece| kept += voxels.kept_by(&piece));
             assert!((kept / voxels.balance().kept - 1.0).abs() < 1e-3, "its leaves keep all that is kept: {kept}");
@@ -57,13 +80,23 @@ fn a_coffee_keeps_in_voxels_what_exact_rays_find() {
     let places: Vec<[f64; 3]> = planes.flat_map(|[x, y]| (1..10).map(move |k| [x, y, 0.19 * f64::from(k)])).collect();
     let mean = |lit: &dyn Lit| places.iter().map(|place| lit.share_at(*place)).sum::<f64>() / places.len() as f64;
     let lighting = Lighting { projection: Projection::OfLeaves, ..Lighting::default() };
-    let [exact, voxels] = [mean(&*exact), mean(&*lighting.light(&canopy, &SKY.sources()))];
-    println!("light in the crown: {voxels:.3} in voxels, {exact:.3} by rays");
-    assert!((voxels - exact).abs() < 0.05, "{voxels} {exact}");
+    let fields: [Box<dyn Lit>; 2] = [exact, lighting.light(&canopy, &SKY.sources())];
+    let [exact, voxels] = [mean(&*fields[0]), mean(&*fields[1])];
+    // Between the places light differs by chance, and over them all by what voxels keep too much or too little.
+    let off = |place: &[f64; 3]| fields[0].share_at(*place) - fields[1].share_at(*place);
+    let squared = |x: f64| x * x;
+    let spread = places.iter().map(|place| squared(off(place) - (exact - voxels))).sum::<f64>();
+    let error = (spread / places.len() as f64 / (places.len() - 1) as f64).sqrt();
+    let bias = (of_leaves - 1.0).abs() * (1.0 - exact);
+    println!("light in the crown: {voxels:.3} in voxels, {exact:.3} by rays, ± {error:.4} and a bias of {bias:.4}");
+    assert!((voxels - exact).abs() < (4.0 * error + bias).min(0.05), "{voxels} {exact} {error} {bias}");
 }
 
-const BOUNDS_EVEN: [[f64; 2]; 4] = [[0.93, 1.0], [1.0, 1.09], [1.07, 1.18], [1.27, 1.42]];
-const BOUNDS_OF_LEAVES: [[f64; 2]; 4] = [[0.9, 0.98], [0.97, 1.06], [1.05, 1.15], [1.26, 1.42]];
+/// What was found, and as much to either side as beams an edge apart may be off: four times √(.0724 B a³ / 16) / A, of
+/// sixteen directions with the outline B ≈ 6 m and the area A ≈ 0.8 m² of the crown, is .009 in voxels of 0.05 m, .026
+/// in those of 0.1 m, then .074 and .2. In the last two the bounds are narrower.
+const BOUNDS_EVEN: [[f64; 2]; 4] = [[0.957, 0.975], [1.017, 1.069], [1.07, 1.18], [1.27, 1.42]];
+const BOUNDS_OF_LEAVES: [[f64; 2]; 4] = [[0.93, 0.948], [0.992, 1.044], [1.05, 1.15], [1.26, 1.42]];
 
 /// Four coffee trees a metre apart and one far away, in light.
 fn stand(more: &str) -> Resolved {
@@ -104,7 +137,9 @@ fn the_columns_of_light_agree() {
         let shares = of_member(member, &competition);
         let last = [shares[1], shares[3]];
         match member {
-            4 => assert!(last.iter().all(|share| (share - 1.0).abs() < 0.02), "far from all others: {last:?}"),
+            // 29 m away no beam of 5 × 8 directions that meets it has met another: the lowest, at 2.7°, come from 22.5°
+            // aside, 12 m beside the others.
+            4 => assert!(last.iter().all(|share| (share - 1.0).abs() < 1e-9), "far from all others: {last:?}"),
             _ => assert!(last.iter().all(|share| (0.3..0.995).contains(share)), "among neighbours: {last:?}"),
         }
     }

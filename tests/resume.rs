@@ -17,6 +17,8 @@ use std::time::{Duration, Instant};
 const KILLS: u32 = 20;
 /// The number of kills for a scenario without cuts and pests, and for the one whose plants bend.
 const FEWER_KILLS: u32 = 6;
+/// The number of kills of a stand in light; `examples/kill_campaign.rs` has as many as are asked for.
+const KILLS_IN_LIGHT: u32 = 4;
 
 /// The files of an undisturbed run, and the time that it takes.
 fn undisturbed(folder: &Path, scenario: &str) -> (BTreeMap<String, String>, Duration) {
@@ -48,6 +50,31 @@ fn plants_that_nobody_touches_are_resumed_too() {
 #[test]
 fn plants_that_bend_are_resumed_too() {
     kill_and_resume("bending.toml", 6 * 3 + 1 + 2 * 2, FEWER_KILLS);
+}
+
+/// Buds that have read the light of the last tick, and tables that tell it.
+#[test]
+fn plants_in_light_are_resumed_too() {
+    kill_and_resume("lit_coffee.toml", 6 * 4 + 1, KILLS_IN_LIGHT);
+}
+
+/// The bytes of stands in light on any number of threads.
+#[test]
+fn stands_in_light_are_the_same_on_any_threads() {
+    for scenario in ["lit_coffee.toml", "lit_poplar.toml"] {
+        let folder = tempfile::tempdir().unwrap();
+        let grown = |threads: &str| {
+            let name = format!("on-{threads}");
+            let words = ["grow", &data(scenario), "--name", &name, "--quiet", "--threads", threads];
+            run(folder.path(), &words).ending(0);
+            hashes(&folder.path().join("runs").join(&name))
+        };
+        let known = grown("1");
+        assert!(known.len() > 12, "{known:?}");
+        for threads in ["2", "3", "8"] {
+            assert_eq!(grown(threads), known, "{scenario} on {threads} threads");
+        }
+    }
 }
 
 fn kill_and_resume(scenario: &str, files: usize, kills: u32) {

@@ -7,7 +7,7 @@
 use std::sync::Arc;
 
 use phytomer_law::fault::{Path, Segment};
-use phytomer_sim::site::calendar::{Calendar, CalendarTick, TickLength};
+use phytomer_sim::site::calendar::{Calendar, CalendarTick, Skylight, TickLength};
 use phytomer_sim::site::calendars::Calendars;
 use phytomer_sim::site::date::Date;
 use phytomer_weather::{Notes, Station, Weather};
@@ -92,6 +92,9 @@ struct Columns {
     degree_day_sum: Option<Vec<f64>>,
     day_length_h: Option<Vec<f64>>,
     nitrogen_kg_ha: Option<Vec<f64>>,
+    /// The latitude, radians, and the share of the sky in the radiation of each tick, where light asks for them.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    skylight: Option<(f64, Vec<f64>)>,
     #[serde(default, skip_serializing_if = "is_zero")]
     years_later: i32,
 }
@@ -115,6 +118,7 @@ impl Columns {
             degree_day_sum: column(|tick| tick.degree_day_sum),
             day_length_h: column(|tick| tick.day_length_h),
             nitrogen_kg_ha: column(|tick| tick.nitrogen_kg_ha),
+            skylight: calendar.skylight().map(|of| (of.latitude, of.of_sky.clone())),
             years_later: calendar.years_later(),
         }
     }
@@ -123,6 +127,9 @@ impl Columns {
         let length = self.tick_days.map(TickLength::Days).or(self.tick_degree_days.map(TickLength::DegreeDays))?;
         let columns = [&self.degree_day_sum, &self.day_length_h, &self.nitrogen_kg_ha];
         if columns.into_iter().flatten().any(|column| column.len() != self.date.len()) {
+            return None;
+        }
+        if self.skylight.as_ref().is_some_and(|(_, of_sky)| of_sky.len() != self.date.len()) {
             return None;
         }
         let dates: Vec<Date> = self.date.iter().map(|date| Date::parse(date)).collect::<Option<_>>()?;
@@ -139,7 +146,8 @@ impl Columns {
             }
         };
         let calendar = Calendar::of_ticks(length, dates.iter().enumerate().map(tick).collect());
-        calendar.map(|calendar| calendar.lying_later(self.years_later))
+        let skylight = self.skylight.map(|(latitude, of_sky)| Skylight { latitude, of_sky });
+        calendar.map(|calendar| calendar.lying_later(self.years_later).lit(skylight))
     }
 }
 
@@ -206,6 +214,7 @@ pub(crate) fn is_of_dates(path: &Path) -> bool {
     const KEYS: [&str; 5] = ["planting_date", "calendar", "weather", "soil", "fertilizer"];
     match path.0.as_slice() {
         [Segment::Key(table), Segment::Key(key), ..] if table == "site" => key == "latitude_deg",
+        [Segment::Key(table), Segment::Key(key), ..] if table == "light" => key == "sun",
         [Segment::Key(key), ..] => KEYS.contains(&key.as_str()),
         _ => false,
     }

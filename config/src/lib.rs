@@ -32,6 +32,7 @@ mod resolved;
 pub mod scenario;
 mod schema;
 mod seeds;
+mod skylight;
 mod solids;
 mod source;
 mod species;

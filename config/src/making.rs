@@ -16,6 +16,7 @@ use phytomer_weather::{Beyond, Weather};
 
 use crate::load::path_of;
 use crate::scenario::Scenario;
+use crate::skylight;
 
 /// What calendars are made of.
 pub(crate) struct Making<'a> {
@@ -71,7 +72,12 @@ impl Making<'_> {
             terms.soil = scenario.soil_until(planted, bare.at(until).date, later);
             if terms.soil.is_some() { Calendar::of(&terms, until, temperatures) } else { Ok(bare) }
         });
-        made.map(|calendar| calendar.lying_later(later)).map_err(|error| vec![self.fault_of(&error, own)])
+        let made = made.map_err(|error| vec![self.fault_of(&error, own)])?;
+        let skylight = match scenario.asks_for_radiation() {
+            true => Some(skylight::of(self.weather, self.latitude, &made).map_err(|fault| vec![fault])?),
+            false => None,
+        };
+        Ok(made.lying_later(later).lit(skylight))
     }
 
     /// Weather that comes again gives replicates that are a multiple of its whole years apart the same weather.

@@ -2,7 +2,7 @@
 //!
 //! A ray ends at the first leaf. It shares nothing with the voxels but the trait: triangles are those of meshes.
 
-use phytomer_outputs::meshes::{MeshOptions, mesh_plant};
+use phytomer_outputs::meshes::{Mesh, MeshOptions, mesh_plant};
 use phytomer_sim::plant::{Kind, Plant};
 use phytomer_sim::site::light::lattice::across;
 use phytomer_sim::site::light::{Balance, Canopy, LightModel, Lit, Piece, Source};
@@ -37,17 +37,22 @@ fn cross(a: Point, b: Point) -> Point {
     [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 
+/// The leaves of a plant as a mesh.
+pub fn leaves(plant: &Plant, age: u32) -> Mesh {
+    let kinds = Kind::ALL.map(Kind::is_foliage);
+    mesh_plant(plant, age, &MeshOptions { kinds, ..MeshOptions::default() })
+}
+
 impl Rays {
     pub fn of(plant: &Plant, age: u32, apart: f64) -> Self {
-        let kinds = Kind::ALL.map(Kind::is_foliage);
-        let mesh = mesh_plant(plant, age, &MeshOptions { kinds, ..MeshOptions::default() });
+        let mesh = leaves(plant, age);
         let place = |corner: u32| mesh.vertices[corner as usize].position().map(f64::from);
         let triangles = mesh.faces.iter().map(|face| face.indices().map(place)).collect();
         Self { triangles, apart }
     }
 
     /// The area across a source that the leaves cover.
-    fn shadow(&self, source: &Source) -> f64 {
+    pub fn shadow(&self, source: &Source) -> f64 {
         let axes = across(source.towards);
         let flat = |point: Point| axes.map(|axis| dot(axis, point) / self.apart);
         let mut covered: HashSet<[i32; 2]> = HashSet::new();

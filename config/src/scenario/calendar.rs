@@ -128,7 +128,8 @@ impl Scenario {
     pub(crate) fn has_the_dates_of(&self, other: &Self) -> bool {
         let of = |scenario: &Self| {
             let Self { planting_date, calendar, weather, soil, fertilizer, site, .. } = scenario.clone();
-            (planting_date, calendar, weather, soil, fertilizer, site.latitude_deg)
+            let asks = scenario.asks_for_radiation();
+            (planting_date, calendar, weather, soil, fertilizer, site.latitude_deg, asks)
         };
         of(self) == of(other)
     }
@@ -223,7 +224,8 @@ impl Scenario {
             ),
             _ => {}
         }
-        if self.calendar.as_ref().is_some_and(|calendar| calendar.degree_days.is_none()) {
+        let is_deaf = self.calendar.as_ref().is_some_and(|calendar| calendar.degree_days.is_none());
+        if is_deaf && !self.asks_for_radiation() {
             let problem = "the years have no effect: nothing asks for the temperatures of the weather".to_owned();
             tell(problem, "`calendar.degree_days` with `method` and `base_celsius`".to_owned());
         }

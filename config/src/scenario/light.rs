@@ -7,7 +7,7 @@
 use super::Scenario;
 use super::stand::Borders as StandBorders;
 use phytomer_law::fault::{Fault, Path};
-use phytomer_sim::site::calendar::Calendar;
+use phytomer_sim::site::calendar::{Calendar, CalendarTick};
 use phytomer_sim::site::light::{Borders, Lighting, Projection, Sky, SkyKind, SunPath};
 use phytomer_sim::site::light::{Light as SimLight, sky::MOST_AZIMUTHS, sky::MOST_RINGS};
 use schemars::JsonSchema;
@@ -88,13 +88,38 @@ pub enum StatedSkyKind {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct StatedSun {
-    /// The share of the sky in the light of a day: about 0.25 where days are clear, 1 under cloud.
-    #[schemars(range(min = 0, max = 1))]
-    pub diffuse: f64,
+    /// The share of the sky in the light of a day: about 0.25 where days are clear, 1 under cloud; or `"weather"`, by
+    /// the solar radiation of the weather file. `"weather"` if not given.
+    #[serde(default)]
+    pub diffuse: StatedDiffuse,
     /// The places of the sun on a day; 5 if not given.
     #[serde(default = "five")]
     #[schemars(range(min = 1, max = 64))]
     pub instants: u32,
+}
+
+/// The share of the sky in the light of a day.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(untagged)]
+pub enum StatedDiffuse {
+    /// The same on all days.
+    Share(#[schemars(range(min = 0, max = 1))] f64),
+    /// By the solar radiation of the weather.
+    Weather(WeatherWord),
+}
+
+/// The word `weather`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum WeatherWord {
+    /// By the solar radiation of the weather.
+    Weather,
+}
+
+impl Default for StatedDiffuse {
+    fn default() -> Self {
+        Self::Weather(WeatherWord::Weather)
+    }
 }
 
 fn five() -> u32 {
@@ -163,11 +188,22 @@ impl Scenario {
         of_stand.map(|stand| stand.ground().sides()).or(light.period_m)
     }
 
+    /// Whether the radiation of the weather is asked for: the share of the sky is to follow from it.
+    pub(crate) fn asks_for_radiation(&self) -> bool {
+        let sun = self.light.as_ref().and_then(|light| light.sun);
+        sun.is_some_and(|sun| matches!(sun.diffuse, StatedDiffuse::Weather(_)))
+    }
+
     fn sun_path(&self, sun: StatedSun, calendar: Option<&Calendar>) -> Option<SunPath> {
-        let latitude = self.site.latitude_deg?.to_radians();
-        let middle = |tick: &phytomer_sim::site::calendar::CalendarTick| tick.date.plus(-(tick.days as i32 + 1) / 2);
-        let days = calendar?.ticks().iter().map(|tick| (middle(tick), sun.diffuse)).collect();
-        Some(SunPath { latitude, days, instants: sun.instants })
+        let (calendar, known) = (calendar?, calendar?.skylight());
+        let latitude = self.site.latitude_deg.map(f64::to_radians).or(known.map(|known| known.latitude))?;
+        let middle = |tick: &CalendarTick| tick.date.plus(-(tick.days as i32 + 1) / 2);
+        let of_sky = |tick: usize| match sun.diffuse {
+            StatedDiffuse::Share(share) => Some(share),
+            StatedDiffuse::Weather(_) => known?.of_sky.get(tick).copied(),
+        };
+        let days = calendar.ticks().iter().enumerate().map(|(tick, at)| Some((middle(at), of_sky(tick)?)));
+        Some(SunPath { latitude, days: days.collect::<Option<_>>()?, instants: sun.instants })
     }
 
     /// Adds the faults of the light.
@@ -193,7 +229,9 @@ impl Scenario {
             let place = if is_periodic { borders() } else { path.key("period_m") };
             faults.push(Fault::new(&place, problem, "a wider plot, or smaller boxes (`voxel_m`)"));
         }
-        if light.sun.is_some() && (self.site.latitude_deg.is_none() || self.calendar.is_none()) {
+        // The weather file may have the latitude: where it has none that is told once it is read.
+        let has_latitude = self.site.latitude_deg.is_some() || self.asks_for_radiation();
+        if light.sun.is_some() && (!has_latitude || self.calendar.is_none()) {
             let problem = "the path of the sun is not known without a date and a latitude";
             let expected = "`planting_date`, `[calendar]` and `site.latitude_deg`, or no `[light.sun]`";
             faults.push(Fault::new(&path.key("sun"), problem, expected));

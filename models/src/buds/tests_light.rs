@@ -10,7 +10,7 @@ use crate::contract::{self, seed_of};
 use crate::fault::Path;
 use crate::law::{Count, Law, LawForm, Variate};
 use phytomer_sim::model::GrowthModel;
-use phytomer_sim::plant::{ApexFate, Cause, EventKind, Plant};
+use phytomer_sim::plant::{ApexFate, AxisId, Cause, EventKind, Plant};
 use phytomer_sim::plot::{Plot, Sowing};
 use phytomer_sim::shape::{Cuboid, Shape};
 use phytomer_sim::site::light::{Light, Lighting, Sky};
@@ -120,6 +120,12 @@ fn a_bud_dies_of_itself_or_of_shade_in_one_draw() {
 
 /// A bush with large leaves whose buds die in shade, and a tree that is only slowed.
 fn thicket() -> [BudModel; 2] {
+    let slowed = response(&[Target::Nodes, Target::InternodeLength], "0.2 + 0.8 * light");
+    [bush("0.02 + 0.5 * (1 - light)", Vec::new()), bush("0.02", vec![slowed])]
+}
+
+/// A bush with large leaves whose buds die by this law, with these responses.
+fn bush(death: &str, response: Vec<Response>) -> BudModel {
     let leafy = |death: &str| Order {
         death: expression(death),
         growth_unit: GrowthUnit { nodes: Count::from(2), ..GrowthUnit::default() },
@@ -134,10 +140,7 @@ fn thicket() -> [BudModel; 2] {
         insertion_deg: Variate::from(60.0),
         ..Order::default()
     };
-    let orders = |death: &str| vec![leafy(death), leafy(death), leafy(death)];
-    let bush = Buds { order: orders("0.02 + 0.5 * (1 - light)"), ..Buds::default() };
-    let slowed = response(&[Target::Nodes, Target::InternodeLength], "0.2 + 0.8 * light");
-    [compiled(&bush, 9), compiled(&Buds { order: orders("0.02"), response: vec![slowed], ..Buds::default() }, 9)]
+    compiled(&Buds { order: vec![leafy(death), leafy(death), leafy(death)], response, ..Buds::default() }, 9)
 }
 
 #[test]
@@ -162,6 +165,31 @@ fn neither_threads_nor_the_order_of_plants_show() {
             assert!(plant.frames.base == same.frames.base && plant.shade == same.shade);
         }
     }
+}
+
+/// Buds that read the light and do not answer it are the same alone and among neighbours. The beams that meet a voxel
+/// of one plant are the same ones, and meet all that they met and more: so no bud has more light than alone, and those
+/// that die of shade do so the sooner.
+#[test]
+fn no_bud_has_more_light_among_neighbours() {
+    let deaf = bush("0.02", vec![response(&[Target::Death], "0 * light")]);
+    let sky = Sky { rings: 3, azimuths: 5, ..Sky::default() };
+    let light = || Some(Lighting { voxel_m: 0.2, sky, ..Lighting::default() });
+    let numbers: Vec<u32> = (0..12).collect();
+    let together = grown(&[&deaf], &numbers, 7, light());
+    let (mut all, mut darker) = (0, 0);
+    for (number, among) in numbers.iter().zip(&together) {
+        let alone = &grown(&[&deaf], &[*number], 7, light())[0];
+        assert_eq!(format!("{:?}", alone.axes), format!("{:?}", among.axes), "plant {number}");
+        for axis in (0..alone.axes.len()).map(|axis| AxisId(axis as u32)) {
+            let [alone, among] = [alone, among].map(|plant| plant.shade.of(axis));
+            assert!(among >= alone, "plant {number}, {axis:?}: {among} below {alone} hundredths of shade");
+            all += 1;
+            darker += u32::from(among > alone);
+        }
+    }
+    // They stand a metre apart, and the lowest ring of the sky is 6.5° above the ground.
+    assert!(darker > all / 2, "{darker} of {all} buds have less light");
 }
 
 /// One plant shades itself; in a stand more of its buds die, and less grows.

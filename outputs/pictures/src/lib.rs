@@ -26,6 +26,7 @@ mod png;
 mod raster;
 mod shade;
 mod shadow;
+pub mod silhouette;
 mod sky;
 mod survey;
 #[cfg(test)]

@@ -96,10 +96,21 @@ pub enum CalendarError {
     },
 }
 
+/// What the radiation of the weather says of the light of each tick.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Skylight {
+    /// The latitude of the site, radians, north positive.
+    pub latitude: f64,
+    /// Of each tick, from 0, the share of the sky in the radiation of its days.
+    pub of_sky: Vec<f64>,
+}
+
 /// The calendar of a plot: its ticks, from 0 to the last.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Calendar {
     ticks: Vec<CalendarTick>,
+    /// What the weather says of the light; `None` where nothing asks for it.
+    skylight: Option<Skylight>,
     length: TickLength,
     /// How many years later it lies than the days that its scenario states.
     years_later: i32,
@@ -117,12 +128,12 @@ impl Calendar {
         mut weather: impl FnMut(Date) -> Option<[f64; 2]>,
     ) -> Result<Self, CalendarError> {
         let ticks = making::ticks(terms, until, &mut weather)?;
-        Ok(Self { ticks, length: terms.tick, years_later: 0 })
+        Ok(Self { ticks, skylight: None, length: terms.tick, years_later: 0 })
     }
 
     /// A calendar of these ticks, as another one had them; `None` without any.
     pub fn of_ticks(length: TickLength, ticks: Vec<CalendarTick>) -> Option<Self> {
-        (!ticks.is_empty()).then_some(Self { ticks, length, years_later: 0 })
+        (!ticks.is_empty()).then_some(Self { ticks, skylight: None, length, years_later: 0 })
     }
 
     /// The same calendar as one that lies so many years later than the days that its scenario states, since its plants
@@ -130,6 +141,17 @@ impl Calendar {
     pub fn lying_later(mut self, years: i32) -> Self {
         self.years_later = years;
         self
+    }
+
+    /// The same calendar with what the weather says of the light of its ticks.
+    pub fn lit(mut self, skylight: Option<Skylight>) -> Self {
+        self.skylight = skylight;
+        self
+    }
+
+    /// What the weather says of the light of its ticks; `None` where nothing asks for it.
+    pub fn skylight(&self) -> Option<&Skylight> {
+        self.skylight.as_ref()
     }
 
     /// How many years later it lies than the days that its scenario states.

@@ -31,6 +31,10 @@ pub trait Canopy: Sync {
     fn plants(&self) -> usize;
     /// Shows the pieces of a plant, each of at most `longest` metres, in a fixed order.
     fn pieces(&self, plant: usize, longest: f64, show: &mut dyn FnMut(Piece));
+    /// A place that goes with the plants, metres: beams of a plot that repeats are laid about its voxel.
+    fn anchor(&self) -> Point {
+        [0.0; 3]
+    }
     /// Shows the buds of a plant whose light is wanted: each with the number of its axis and its place, metres.
     fn buds(&self, plant: usize, show: &mut dyn FnMut(usize, Point));
 }
@@ -56,6 +60,11 @@ impl Standing<'_> {
 impl Canopy for Standing<'_> {
     fn plants(&self) -> usize {
         self.plants.len()
+    }
+
+    /// The place of the first plant.
+    fn anchor(&self) -> Point {
+        self.plants.first().map_or([0.0; 3], |plant| plant.place)
     }
 
     fn pieces(&self, number: usize, longest: f64, show: &mut dyn FnMut(Piece)) {

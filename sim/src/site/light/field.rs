@@ -10,13 +10,23 @@ use super::canopy::{Canopy, Piece};
 use super::grid::{BITS, Grid, UNITS, VOXELS};
 use super::normals::{CLASSES, axes, met};
 use super::shadow::Shadows;
+use super::spot::Spot;
 use super::{Balance, LightModel, Lighting, Lit, Projection, Source};
 use crate::math::exp;
 use crate::shape::Point;
-use rayon::iter::{IntoParallelIterator, IntoParallelRefIterator, ParallelIterator};
+use rayon::iter::{
+    IndexedParallelIterator, IntoParallelIterator, IntoParallelRefIterator, IntoParallelRefMutIterator,
+    ParallelIterator,
+};
 
 /// The sources that are followed at once: each takes 16 bytes a voxel.
 const AT_ONCE: usize = 8;
+
+/// The fewest plants whose leaf area a thread adds up in a grid of its own.
+const FEWEST_PLANTS: usize = 16;
+
+/// The fewest voxels to which a thread adds the light of sources.
+const FEWEST_VOXELS: usize = 4_096;
 
 /// A way so short that nothing is kept on it, metres.
 const NO_WAY: f64 = 1e-150;
@@ -44,15 +54,21 @@ impl LightModel for Lighting {
 
 /// The leaf area of a canopy in voxels; also the voxels of its buds, so that their light is found.
 pub fn grid_of(lighting: &Lighting, canopy: &dyn Canopy) -> Grid {
-    let of_plant = |plant: usize| {
-        let mut grid = Grid::of(lighting);
+    let with_plant = |mut grid: Grid, plant: usize| {
         canopy.pieces(plant, lighting.voxel_m / 2.0, &mut |piece| grid.add(&piece));
         canopy.buds(plant, &mut |_, place| grid.mark(place));
         grid
     };
-    let grids: Vec<Grid> = (0..canopy.plants()).into_par_iter().map(of_plant).collect();
-    let mut grid = Grid::of(lighting);
-    grids.iter().for_each(|of_plant| grid.join(of_plant));
+    let joined = |one: Grid, two: Grid| {
+        let (mut more, fewer) = if one.bricks.len() < two.bricks.len() { (two, one) } else { (one, two) };
+        more.join(&fewer);
+        more
+    };
+    // Sums of whole numbers: how plants are shared among threads does not show.
+    let plants = (0..canopy.plants()).into_par_iter().with_min_len(FEWEST_PLANTS);
+    let mut grid = plants.fold(|| Grid::of(lighting), with_plant).reduce(|| Grid::of(lighting), joined);
+    let anchor = grid.voxel(canopy.anchor());
+    grid.anchor = [anchor[0], anchor[1]];
     grid.sort();
     grid
 }
@@ -89,23 +105,31 @@ impl Field {
                 shone
             };
             let shone: Vec<Shone> = some.par_iter().map(one).collect();
-            some.iter().zip(&shone).for_each(|(source, shone)| field.add(source, shone));
+            field.add(some, &shone);
         }
         field.light.iter_mut().for_each(|light| *light = light.min(1.0));
         field
     }
 
-    fn add(&mut self, source: &Source, shone: &Shone) {
+    /// Adds the light of sources, in their order in each voxel.
+    fn add(&mut self, sources: &[Source], shone: &[Shone]) {
         // Light across a beam of 1 m² falls on 1/sine m² of level ground.
-        let on_ground = source.weight / source.towards[2];
-        let each = self.light.iter_mut().zip(&mut self.kept).zip(&shone.along);
-        for ((light, kept), [share, lost]) in each {
-            *light += source.weight * share;
-            *kept += on_ground * shone.section * lost;
+        let on_ground = |source: &Source| source.weight / source.towards[2];
+        let scale = |(source, shone): (&Source, &Shone)| (source.weight, on_ground(source) * shone.section);
+        let scales: Vec<(f64, f64)> = sources.iter().zip(shone).map(scale).collect();
+        let voxels = self.light.par_iter_mut().zip(&mut self.kept).enumerate().with_min_len(FEWEST_VOXELS);
+        voxels.for_each(|(voxel, (light, kept))| {
+            for (shone, (of_light, of_kept)) in shone.iter().zip(&scales) {
+                let [share, lost] = shone.along[voxel];
+                *light += of_light * share;
+                *kept += of_kept * lost;
+            }
+        });
+        for (source, shone) in sources.iter().zip(shone) {
+            let Balance { sent, kept, stopped, passed } = shone.balance;
+            let [sent, kept, stopped, passed] = [sent, kept, stopped, passed].map(|of| of * on_ground(source));
+            self.balance = self.balance.with(Balance { sent, kept, stopped, passed });
         }
-        let Balance { sent, kept, stopped, passed } = shone.balance;
-        let [sent, kept, stopped, passed] = [sent, kept, stopped, passed].map(|of| of * on_ground);
-        self.balance = self.balance.with(Balance { sent, kept, stopped, passed });
     }
 
     /// Finds the light in the middle of each voxel that is wanted and that the beams of a source have missed.
@@ -114,7 +138,8 @@ impl Field {
             if !self.grid.is_wanted(index) {
                 continue;
             }
-            let share = share_of(&self.grid, extinction, shadows, (self.middle(index), source));
+            let middle = Spot { voxel: self.voxel_of(index), inner: [0.5; 3] };
+            let share = share_of(&self.grid, extinction, shadows, (middle, source));
             *sums = [share * NO_WAY, NO_WAY];
         }
     }
@@ -123,11 +148,6 @@ impl Field {
         let (place, inner) = (self.grid.bricks[index / VOXELS], (index % VOXELS) as i32);
         let inner = [inner & 7, (inner >> BITS) & 7, inner >> (2 * BITS)];
         [0, 1, 2].map(|k| (place[k] << BITS) + inner[k])
-    }
-
-    fn middle(&self, index: usize) -> Point {
-        let voxel = self.voxel_of(index);
-        [0, 1, 2].map(|k| self.grid.origin[k] + (f64::from(voxel[k]) + 0.5) * self.grid.edges[k])
     }
 
     /// The extinction of each voxel, 1/m, where it is the same in all directions; else nothing.
@@ -151,10 +171,10 @@ impl Field {
     /// [`Lit::share_at`].
     pub fn share_by_rays(&self, place: Point) -> f64 {
         let shadows = Shadows::of(&self.lighting.opaque, self.lighting.borders, self.lighting.origin);
-        let even = self.even_extinction();
+        let (even, spot) = (self.even_extinction(), self.grid.spot(place));
         let one = |source: &Source| {
             let extinction = self.extinction(&even, source.towards);
-            source.weight * share_of(&self.grid, &extinction, &shadows, (place, source))
+            source.weight * share_of(&self.grid, &extinction, &shadows, (spot, source))
         };
         self.sources.iter().map(one).sum()
     }
@@ -166,7 +186,7 @@ impl Field {
         let count = count.max(1);
         let place = |cell: u32| {
             let along = |k: usize, cell: u32| low[k] + (high[k] - low[k]) * (f64::from(cell) + 0.5) / f64::from(count);
-            [along(0, cell % count), along(1, cell / count), height]
+            self.grid.spot([along(0, cell % count), along(1, cell / count), height])
         };
         let one = |source: &Source| {
             let extinction = self.extinction(&even, source.towards);
@@ -179,11 +199,11 @@ impl Field {
 }
 
 /// The share of the light of a source that reaches a place.
-fn share_of(grid: &Grid, extinction: &[f64], shadows: &Shadows, (place, source): (Point, &Source)) -> f64 {
-    if !shadows.is_empty() && shadows.hide(place, source.towards) {
+fn share_of(grid: &Grid, extinction: &[f64], shadows: &Shadows, (spot, source): (Spot, &Source)) -> f64 {
+    if !shadows.is_empty() && shadows.hide(grid.place(spot), source.towards) {
         return 0.0;
     }
-    exp(-depth_towards(grid, extinction, place, source.towards))
+    exp(-depth_towards(grid, extinction, spot, source.towards))
 }
 
 impl Lit for Field {

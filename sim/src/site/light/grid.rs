@@ -3,8 +3,8 @@
 //! Voxels stand in bricks of 8 × 8 × 8; a brick is made when something falls into it, so memory goes with the leaf area
 //! and not with the box around the plants. A brick is found by its place through a table of open addresses. Area is
 //! counted in units of 2⁻³² m², a quarter of a thousandth of a mm²; a voxel holds at most 2³² m², and what is more is
-//! left out (`saturated`). Where the plot repeats, a whole number of voxels spans it, and places are taken back into
-//! it. Absent: light.
+//! left out (`saturated`). Where the plot repeats, an even number of voxels spans it, so that half of it is a whole
+//! number of them, and places are taken back into it. Absent: the voxel of a place (`spot`), light.
 
 use super::normals::{CLASSES, class_of};
 use super::{Borders, Lighting, Piece, Projection};
@@ -21,7 +21,7 @@ const WORDS: usize = VOXELS / 64;
 /// The units of area in a m².
 pub const UNITS: f64 = 4_294_967_296.0;
 /// The farthest brick from the corner of the plot, along each axis.
-const FARTHEST: i32 = (1 << 20) - 1;
+pub(super) const FARTHEST: i32 = (1 << 20) - 1;
 /// No brick.
 pub const NONE: u32 = u32::MAX;
 
@@ -38,6 +38,8 @@ pub struct Grid {
     /// The number of voxels along X and Y after which the plot repeats; a number that is never reached where it does
     /// not.
     pub period: [i32; 2],
+    /// The voxel along X and Y from which beams of a plot that repeats are laid: one that goes with the plants.
+    pub anchor: [i32; 2],
     /// The place of each brick, in bricks, in the order in which they were made.
     pub bricks: Vec<[i32; 3]>,
     /// The leaf area of each voxel, brick by brick.
@@ -53,6 +55,8 @@ pub struct Grid {
     most: [i32; 3],
     /// Of each voxel, one bit a voxel, whether its light is wanted where it has no leaves.
     marked: Vec<u64>,
+    /// The brick into which something fell last.
+    last: usize,
 }
 
 impl Grid {
@@ -62,7 +66,7 @@ impl Grid {
         let (mut edges, mut period) = ([edge; 3], [i32::MAX; 2]);
         if let Borders::Periodic(width) = lighting.borders {
             for k in 0..2 {
-                let count = (width[k] / edge).round().clamp(1.0, 1e6);
+                let count = 2.0 * (width[k] / edge / 2.0).round().clamp(1.0, 5e5);
                 (edges[k], period[k]) = (width[k] / count, count as i32);
             }
         }
@@ -70,6 +74,7 @@ impl Grid {
             edges,
             origin: lighting.origin,
             period,
+            anchor: [0; 2],
             bricks: Vec::new(),
             area: Vec::new(),
             by_normal: Vec::new(),
@@ -79,6 +84,7 @@ impl Grid {
             least: [i32::MAX; 3],
             most: [i32::MIN; 3],
             marked: Vec::new(),
+            last: 0,
         }
     }
 
@@ -90,12 +96,6 @@ impl Grid {
     /// Whether the plot repeats.
     pub fn repeats(&self) -> bool {
         self.period[0] != i32::MAX
-    }
-
-    /// The voxel of a place, before it is taken back into a plot that repeats.
-    pub fn voxel(&self, place: Point) -> Voxel {
-        let most = f64::from(FARTHEST * EDGE);
-        [0, 1, 2].map(|k| ((place[k] - self.origin[k]) / self.edges[k]).floor().clamp(-most, most) as i32)
     }
 
     /// The voxel taken back into a plot that repeats.
@@ -168,21 +168,25 @@ impl Grid {
         self.saturated |= other.saturated;
     }
 
+    /// Sums that end at the most that there can be do not depend on their order.
+    #[inline]
     fn put(&mut self, index: usize, class: usize, units: u64) {
-        let sum = self.area[index].checked_add(units).unwrap_or_else(|| {
-            self.saturated = true;
-            u64::MAX
-        });
-        let added = sum - self.area[index];
-        self.area[index] = sum;
+        let (sum, is_too_much) = self.area[index].overflowing_add(units);
+        self.area[index] = if is_too_much { u64::MAX } else { sum };
+        self.saturated |= is_too_much;
         if self.keeps_normals {
-            self.by_normal[index * CLASSES + class] += added;
+            let of_class = &mut self.by_normal[index * CLASSES + class];
+            *of_class = of_class.saturating_add(units);
         }
     }
 
     /// The index of a voxel, whose brick is made if need be.
     fn make(&mut self, voxel: Voxel) -> usize {
         let place = voxel.map(|x| x >> BITS);
+        // What comes one after the other mostly falls into one brick.
+        if self.bricks.get(self.last).is_some_and(|last| *last == place) {
+            return self.last * VOXELS + within_brick(voxel);
+        }
         let mut brick = self.brick(place);
         if brick == NONE {
             brick = self.bricks.len() as u32;
@@ -196,6 +200,7 @@ impl Grid {
             }
             self.enter(brick);
         }
+        self.last = brick as usize;
         brick as usize * VOXELS + within_brick(voxel)
     }
 
@@ -230,6 +235,7 @@ impl Grid {
         (self.area, self.by_normal) = (sorted(&self.area, VOXELS), sorted(&self.by_normal, VOXELS * CLASSES));
         self.marked = sorted(&self.marked, WORDS);
         self.bricks = order.iter().map(|&brick| self.bricks[brick]).collect();
+        self.last = 0;
         self.table = vec![NONE; (self.bricks.len() * 4).next_power_of_two().max(64)];
         (0..self.bricks.len() as u32).for_each(|brick| self.place_in_table(brick));
     }

@@ -3,12 +3,14 @@
 //!
 //! On open ground the beams stand on a lattice in the plane across them, an edge of a voxel apart, and only those are
 //! followed that meet a brick: for each tile of 8 × 8 beams, the stretches along the beams in which bricks lie. Where
-//! the plot repeats, beams start from one plot of a level above all plants, as many as the plot is wide across them.
-//! Each row is shifted by the golden ratio against the one before, so that no beams follow one another through the same
-//! planes of voxels. Absent: what becomes of a beam (`beam`).
+//! the plot repeats, beams start from one plot of a level above all plants, as many as the plot is wide across them,
+//! and lie about a voxel that goes with the plants: whole voxels farther, plants have the same light to the last bit.
+//! Each row is shifted by the golden ratio against the one before, so that no beams follow one another through the
+//! same planes of voxels. Absent: what becomes of a beam (`beam`).
 
 use super::Source;
 use super::grid::{BITS, EDGE, Grid};
+use super::spot::Spot;
 use crate::shape::Point;
 
 /// What each row of beams is shifted by, as a share of the distance of two beams.
@@ -19,14 +21,22 @@ const TILE: u32 = 3;
 /// One beam: a line, and the stretches of it that are followed.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Beam<'a> {
-    /// Where it begins, metres.
-    pub from: Point,
+    /// Where it begins.
+    pub from: Spot,
     /// The unit vector along which it goes.
     pub way: Point,
     /// Its area across its way, m².
     pub section: f64,
     /// The stretches in which it may meet leaves, metres from its beginning, rising and apart.
     pub stretches: &'a [[f64; 2]],
+}
+
+impl Beam<'_> {
+    /// The place so many metres from its beginning, metres.
+    pub fn place(&self, grid: &Grid, along: f64) -> Point {
+        let from = grid.place(self.from);
+        [0, 1, 2].map(|k| from[k] + self.way[k] * along)
+    }
 }
 
 /// Shows each beam of a source that may meet a brick of the grid, in a fixed order. `top` is the height, metres, above
@@ -71,7 +81,7 @@ fn on_open_ground(grid: &Grid, source: &Source, show: &mut dyn FnMut(&Beam)) {
             for column in left..left + (1 << TILE) {
                 let u = (column as f64 + 0.5 + shift_of(row)) * apart;
                 let v = (row as f64 + 0.5) * apart;
-                let from = [0, 1, 2].map(|k| grid.origin[k] + right[k] * u + up[k] * v);
+                let from = grid.spot([0, 1, 2].map(|k| grid.origin[k] + right[k] * u + up[k] * v));
                 show(&Beam { from, way, section: apart * apart, stretches: &merged });
             }
         }
@@ -117,20 +127,26 @@ fn of_plot(grid: &Grid, source: &Source, top: f64, show: &mut dyn FnMut(&Beam)) 
     let top = if top.is_finite() { top.max(crown) } else { crown };
     let [x, y, sine] = source.towards;
     let way = source.towards.map(|x| -x);
-    let width = [0, 1].map(|k| grid.edges[k] * f64::from(grid.period[k]));
     // Beams are 1/sine farther apart along the level way of the light than across it.
     let level = (x * x + y * y).max(1e-18);
     let stretched = |share: f64| crate::math::pow(sine, share / level);
-    let counts = [stretched(x * x) / grid.edges[0], stretched(y * y) / grid.edges[1]];
-    let counts = [0, 1].map(|k| (counts[k] * width[k]).ceil().clamp(1.0, 1e6) as i64);
-    let apart = [0, 1].map(|k| width[k] / counts[k] as f64);
-    let section = apart[0] * apart[1] * sine;
+    let counts = [(0, x), (1, y)]
+        .map(|(k, along)| (stretched(along * along) * f64::from(grid.period[k])).ceil().clamp(1.0, 1e6) as i64);
+    // In voxels.
+    let apart = [0, 1].map(|k| f64::from(grid.period[k]) / counts[k] as f64);
+    let section = apart[0] * grid.edges[0] * apart[1] * grid.edges[1] * sine;
     let stretches = [[0.0, (top - bottom) / sine]];
+    let height = grid.spot([grid.origin[0], grid.origin[1], top]);
+    let anchor = Spot { voxel: [grid.anchor[0], grid.anchor[1], height.voxel[2]], inner: [0.0, 0.0, height.inner[2]] };
     for row in 0..counts[1] {
         for column in 0..counts[0] {
-            let x = (column as f64 + shift_of(row)) * apart[0];
-            let y = (row as f64 + 0.5) * apart[1];
-            let from = [grid.origin[0] + x, grid.origin[1] + y, top];
+            let beside = [(column as f64 + shift_of(row)) * apart[0], (row as f64 + 0.5) * apart[1]];
+            let mut from = anchor;
+            for (k, beside) in beside.into_iter().enumerate() {
+                // Whole voxels go to the voxel alone, so that beams lie about the anchor alike wherever it is.
+                from.voxel[k] += beside.floor() as i32;
+                from.inner[k] = beside - beside.floor();
+            }
             show(&Beam { from, way, section, stretches: &stretches });
         }
     }
@@ -152,8 +168,9 @@ mod tests {
         for source in (Sky { rings: 4, azimuths: 7, ..Sky::default() }).sources() {
             let mut area = 0.0;
             each_beam(&grid, &source, 0.0, &mut |beam| {
-                let met = crate::site::light::shadow::passage(&bounds, beam.from, beam.way, f64::INFINITY);
-                let back = crate::site::light::shadow::passage(&bounds, beam.from, source.towards, f64::INFINITY);
+                let from = beam.place(&grid, 0.0);
+                let met = crate::site::light::shadow::passage(&bounds, from, beam.way, f64::INFINITY);
+                let back = crate::site::light::shadow::passage(&bounds, from, source.towards, f64::INFINITY);
                 if met.is_some() || back.is_some() {
                     area += beam.section;
                     let holds = |t: f64, [from, to]: &[f64; 2]| from - 1e-3 <= t && t <= to + 1e-3;

@@ -19,6 +19,7 @@ pub mod lattice;
 pub mod normals;
 pub mod shadow;
 pub mod sky;
+pub mod spot;
 pub mod sun;
 
 #[cfg(test)]

@@ -10,7 +10,7 @@ use super::Source;
 use super::sky::{Sky, gauss_legendre};
 use crate::clock::Tick;
 use crate::site::date::Date;
-use crate::site::sun::{Sun, declination, sunset_hour_angle};
+use crate::site::sun::{Sun, declination, extraterrestrial_mj_m2, sunset_hour_angle};
 use std::f64::consts::PI;
 
 /// The least sine of the elevation at which the sun counts: half a degree, about its own radius.
@@ -69,6 +69,22 @@ pub fn share_of_sky(transmission: f64) -> f64 {
     }
 }
 
+/// The share of the sky in the radiation of some days, each with its radiation, MJ/m²: the radiation of the sky of all
+/// days over all radiation, with that above the atmosphere by FAO-56. 1 where there is no radiation.
+///
+/// Days are taken one by one and not by their mean: a clear day and a dark one have less light of the sky than two
+/// days between them.
+pub fn share_of_days(latitude: f64, days: impl IntoIterator<Item = (Date, f64)>) -> f64 {
+    let (mut of_sky, mut all) = (0.0, 0.0);
+    for (date, radiation) in days {
+        let above = extraterrestrial_mj_m2(latitude, date.day_of_year());
+        let share = if above > 0.0 { share_of_sky(radiation / above) } else { 1.0 };
+        of_sky += radiation * share;
+        all += radiation;
+    }
+    if all > 0.0 { of_sky / all } else { 1.0 }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -87,6 +103,22 @@ mod tests {
         for edge in [0.07, 0.35, 0.75] {
             assert!((share_of_sky(edge - 1e-9) - share_of_sky(edge + 1e-9)).abs() < 0.02, "{edge}");
         }
+    }
+
+    /// By hand: FAO-56, example 8, has 32.2 MJ/m² above the atmosphere on 3 September at 20° S. Of 20 MJ/m² a share of
+    /// .6211 passes, so 1.33 − 1.46 · .6211 = .4232 is of the sky; 8 MJ/m² are .2484, and 1 − 2.3 · .1784² = .9268.
+    #[test]
+    fn days_share_their_light_as_worked_by_hand() {
+        let (latitude, date) = (-20.0_f64.to_radians(), day(9, 3));
+        let of = |days: &[f64]| share_of_days(latitude, days.iter().map(|radiation| (date, *radiation)));
+        assert!((extraterrestrial_mj_m2(latitude, date.day_of_year()) - 32.2).abs() < 0.05);
+        // 32.2 is rounded: .05 of it moves the shares by .0015 and .0002.
+        assert!((of(&[20.0]) - 0.4232).abs() < 0.002 && (of(&[8.0]) - 0.9268).abs() < 0.001, "{}", of(&[20.0]));
+        // Both days: (20 · .4232 + 8 · .9268) / 28 = .5671; two days of 14 MJ/m² would have .6952.
+        assert!((of(&[20.0, 8.0]) - 0.5671).abs() < 0.002, "{}", of(&[20.0, 8.0]));
+        assert!((of(&[14.0, 14.0]) - 0.6952).abs() < 0.002, "{}", of(&[14.0]));
+        assert_eq!((of(&[]), of(&[0.0])), (1.0, 1.0));
+        assert_eq!(share_of_days(1.4, [(day(12, 21), 0.3)]), 1.0, "in the polar night all light is of the sky");
     }
 
     #[test]

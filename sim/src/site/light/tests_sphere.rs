@@ -61,15 +61,19 @@ fn passes() -> f64 {
 }
 
 /// The bounds hold for the voxels that make up the sphere. Where its leaves are scattered, those at its rim share their
-/// voxels with the air around it, which catches a little more.
+/// voxels with the air around it, which catches a little more: with beams so dense that they do not matter .6 % from
+/// above and 1.02 % from aside in 20 voxels, .18 and .32 % in 40, wherever its middle lies in a voxel (another program,
+/// with the shares of each voxel in the sphere). Beams an edge apart are off by .1 % and .03 % more.
 #[test]
 fn a_sphere_keeps_what_its_chords_keep() {
     assert!((passes() - 0.296_997).abs() < 1e-6, "{}", passes());
     for (across, bounds) in [(20, [0.01, 0.012]), (40, [0.003, 0.0035])] {
-        let [built, scattered] = [middles(across), scattered([0.013, -0.021, 0.007])];
+        let (built, beside) = (middles(across), scattered([0.013, -0.021, 0.007]));
+        let on_a_corner = scattered([0.0; 3]);
         for (elevation, azimuth) in [(90.0, 0.0), (60.0, 20.0), (35.0, 45.0), (12.0, 77.0), (3.0, 160.0)] {
             let source = from_elevation(elevation, azimuth);
-            for (places, bound) in [&built, &scattered].into_iter().zip(bounds) {
+            let [exact, shared] = bounds;
+            for (places, bound) in [(&built, exact), (&beside, shared), (&on_a_corner, shared)] {
                 let off = kept(across, places, source) / (PI * (1.0 - passes())) - 1.0;
                 assert!(off.abs() < bound, "{across} voxels, {elevation}°: {off}");
             }
