@@ -1,6 +1,6 @@
 //! The price of obstacles in a tick, beside the same plants in the open that grow and stand tick by tick: ivies by a
-//! wall with a window; coffee trees among two hundred boxes that are far from every bud but the nearest, on solid ground
-//! alone, and where they meet the stems of their neighbours.
+//! wall with a window; coffee trees among two hundred boxes that are far from every bud but the nearest, on solid
+//! ground alone, and where they meet the stems of their neighbours.
 //!
 //! Pairs by turns, so that the ratios hold on a machine that does other work too; `PHYTOMER_PAIRS=20` for more of them.
 //! Plants that meet something are other plants, so the number of their components is told beside the ratios. Absent: a

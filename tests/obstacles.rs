@@ -1,10 +1,10 @@
-//! Scenarios with obstacles that block, a ground, and stems that shoots meet: the shipped wall and oak, the same bytes on
-//! any number of threads and after a kill, nothing within the wall, in any form of shape or below the ground of any
+//! Scenarios with obstacles that block, a ground, and stems that shoots meet: the shipped wall and oak, the same bytes
+//! on any number of threads and after a kill, nothing within the wall, in any form of shape or below the ground of any
 //! shipped scenario, meshes of three formats, and faults told with their keys.
 //!
 //! The shoots are looked at in the tables that a run writes and in the plot that a program grows. Absent: the ways past
-//! solids (`sim/src/site/way.rs`), what each answer of a bud does (`models/src/buds/tests_contact.rs`), and what stems do
-//! (`models/src/buds/tests_stems.rs`).
+//! solids (`sim/src/site/way.rs`), what each answer of a bud does (`models/src/buds/tests_contact.rs`), and what stems
+//! do (`models/src/buds/tests_stems.rs`).
 
 mod program;
 

@@ -4,9 +4,9 @@
 //! see the site unchanged ([`View`]), and what they did is gathered in the order of the plot. So no result depends on
 //! the threads. Three things feed back today: light, which buds read; obstacles, shapes that kill the buds that are in
 //! them or out of them, or that shoots meet ([`solids`], with the ground and the [`stems`] of plants, and the [`way`]
-//! past them); and cells of space that plants claim in the first half of a tick and are granted or refused in the second. What the date alone
-//! decides is the [`calendar`], made of [`date`], [`sun`] and [`degree_days`]; replicates may have [`calendars`] of
-//! their own.
+//! past them); and cells of space that plants claim in the first half of a tick and are granted or refused in the
+//! second. What the date alone decides is the [`calendar`], made of [`date`], [`sun`] and [`degree_days`]; replicates
+//! may have [`calendars`] of their own.
 
 pub mod calendar;
 pub mod calendars;

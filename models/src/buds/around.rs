@@ -1,9 +1,9 @@
 //! What is around a bud that grows, and how its next internode lies in it.
 //!
-//! [`Around`] follows the tip of an axis through one tick, from the pose in which it stood at the end of the last one. As
-//! long as nothing is near it knows the place alone from which the tip has grown on; its frame is found when it is asked.
-//! Absent: what the bud does about it (`contact`), the surfaces (`phytomer_sim::site::solids`) and the stems of plants
-//! (`phytomer_sim::site::stems`).
+//! [`Around`] follows the tip of an axis through one tick, from the pose in which it stood at the end of the last one.
+//! As long as nothing is near it knows the place alone from which the tip has grown on; its frame is found when it is
+//! asked. Absent: what the bud does about it (`contact`), the surfaces (`phytomer_sim::site::solids`) and the stems of
+//! plants (`phytomer_sim::site::stems`).
 
 use super::compile::ContactLaws;
 use super::params::Answer;

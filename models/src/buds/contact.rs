@@ -2,10 +2,11 @@
 //!
 //! De Reffye et al. 1988 §4 name the obstruction "due to fixed obstacles or to part of the plant against another part"
 //! as what their traversal could not do. A bud is asked at each clock step whether its cone meets a surface or a stem,
-//! from where it stands; then it pauses, dies, or makes its growth unit, of which each internode that would enter a solid
-//! or touch a stem is turned along it. A node for which there is no way is not made: the unit ends before it. Turns are
-//! stated as rest frames of the nodes, and those of leaves as theirs, so the pose, bending and all tables follow; a plant
-//! that meets nothing states none and is to the byte the plant of an open site. Absent: the tip and its way (`around`).
+//! from where it stands; then it pauses, dies, or makes its growth unit, of which each internode that would enter a
+//! solid or touch a stem is turned along it. A node for which there is no way is not made: the unit ends before it.
+//! Turns are stated as rest frames of the nodes, and those of leaves as theirs, so the pose, bending and all tables
+//! follow; a plant that meets nothing states none and is to the byte the plant of an open site. Absent: the tip and its
+//! way (`around`).
 
 use super::around::{Around, Lie, Next};
 use super::grow::{Axis, Full};

@@ -98,8 +98,8 @@ impl BudModel {
     }
 
     /// Grows every living bud first, then the axes that arise meanwhile, each through all its ticks: parents come
-    /// before their children, and nodes of an axis that are grown at once are neighbours in the columns.
-    /// Living buds meet the solids and the stems of `site`; axes that arise meanwhile make nothing at the tick of their birth.
+    /// before their children, and nodes of an axis that are grown at once are neighbours in the columns. Living buds
+    /// meet the solids and the stems of `site`; axes that arise meanwhile make nothing at the tick of their birth.
     fn grow_plant(
         &self,
         (plant, site): (&mut Plant, Option<&Site>),

@@ -3,8 +3,8 @@
 //!
 //! They are the internodes as they stood at the end of the last tick, so no order of plants and no number of threads
 //! shows: each a straight piece of wood whose radius goes evenly from its base to its tip. Those of a plant lie in its
-//! own frame under a bounding tree over pieces of its axes, the plants under a tree over the plot; so memory follows the
-//! wood, and a bud far from all wood asks one tree. What is near a bud is copied from here ([`Beside`]). Absent:
+//! own frame under a bounding tree over pieces of its axes, the plants under a tree over the plot; so memory follows
+//! the wood, and a bud far from all wood asks one tree. What is near a bud is copied from here ([`Beside`]). Absent:
 //! leaves, flowers and fruits, which no shoot meets.
 
 mod beside;

@@ -4,9 +4,9 @@
 //! An internode keeps its length, so the end of one that would enter a solid is moved out of it along the surface's
 //! normal and back to the sphere about its start, by turns, until it is free: it lies along the surface. One that would
 //! come too near to a stem is moved so that its nearest point is far enough. One that meets a surface head on has no
-//! such end; it turns along the surface, upward if the surface is not level, else to a side. A climber's end is drawn in
-//! the same way to the surface that it holds to, and never past its reach. Absent: the cone that a bud feels (`solids`,
-//! `stems`), and what a species does where there is no way.
+//! such end; it turns along the surface, upward if the surface is not level, else to a side. A climber's end is drawn
+//! in the same way to the surface that it holds to, and never past its reach. Absent: the cone that a bud feels
+//! (`solids`, `stems`), and what a species does where there is no way.
 
 use super::solids::{CLEARANCE, Near, Solids, Surface, along};
 use super::stems::{Beside, Spared};
@@ -67,14 +67,14 @@ struct Trial<'a> {
 }
 
 impl Solids {
-    /// The heading of an internode that enters no solid and comes too near to no stem, nearest to the one that it wants;
-    /// `None` where there is none.
+    /// The heading of an internode that enters no solid and comes too near to no stem, nearest to the one that it
+    /// wants; `None` where there is none.
     ///
-    /// What is promised of the end: it lies in no solid, farther than ¼ of [`CLEARANCE`] from each, and by the radius of
-    /// the internode farther, or by what more its start had if that is less; where the internode began in no solid, the
-    /// line to it passes through none; where it holds, it is within the reach. The line comes no nearer to the bark of
-    /// an axis than its radius and ¼ of the clearance, or than it began if that is less. Cost: some dozens of distances,
-    /// of solids and stems that are near alone.
+    /// What is promised of the end: it lies in no solid, farther than ¼ of [`CLEARANCE`] from each, and by the radius
+    /// of the internode farther, or by what more its start had if that is less; where the internode began in no solid,
+    /// the line to it passes through none; where it holds, it is within the reach. The line comes no nearer to the bark
+    /// of an axis than its radius and ¼ of the clearance, or than it began if that is less. Cost: some dozens of
+    /// distances, of solids and stems that are near alone.
     pub fn way(&self, step: &Step) -> Option<Point> {
         let trial = Trial::of(self, step);
         if let Some(free) = trial.relaxed(step.heading) {
@@ -94,7 +94,8 @@ impl Solids {
 impl<'a> Trial<'a> {
     fn of(solids: &'a Solids, step: &'a Step<'a>) -> Self {
         let near = if step.radius > 0.0 { solids.nearest(step.from, step.radius + FREE) } else { None };
-        // As a shoot comes out of the ground, or along a wall nearer than it is thick, its start tells what it can keep.
+        // As a shoot comes out of the ground, or along a wall nearer than it is thick, its start tells what it can
+        // keep.
         let margin = near.map_or(step.radius, |near| step.radius.min((near.distance - FREE).max(0.0)));
         Self { solids, step, margin }
     }

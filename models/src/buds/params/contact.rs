@@ -1,7 +1,8 @@
 //! What buds do where they meet an obstacle or the ground, as a species states it.
 //!
-//! A scenario says what is solid, and whether shoots meet the stems of plants; the species says how far a bud feels and how it answers. Absent: the shapes
-//! (`crate::shapes`), and how a shoot finds its way past them (`phytomer_sim::site::way`).
+//! A scenario says what is solid, and whether shoots meet the stems of plants; the species says how far a bud feels and
+//! how it answers. Absent: the shapes (`crate::shapes`), and how a shoot finds its way past them
+//! (`phytomer_sim::site::way`).
 
 use crate::law::Constant;
 use schemars::JsonSchema;

@@ -64,8 +64,8 @@ fn what_is_near_is_what_asking_each_stem_finds() {
     assert!(found > 2000, "{found}");
 }
 
-/// A cone of 10 cm and 30° before an upright stem of 1 cm radius, whose bark is to be felt where the middle of a ball is
-/// nearer to it than the radius of the ball: straight ahead at the end of the cone, and aside where the ball of the
+/// A cone of 10 cm and 30° before an upright stem of 1 cm radius, whose bark is to be felt where the middle of a ball
+/// is nearer to it than the radius of the ball: straight ahead at the end of the cone, and aside where the ball of the
 /// same height has grown so far.
 #[test]
 fn a_cone_meets_the_stem_ahead_and_not_the_one_that_it_leaves() {
