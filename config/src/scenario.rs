@@ -32,7 +32,7 @@ pub use meshes::{MeshAges, MeshAgesWord, MeshFile, MeshPlants, Meshes};
 pub use pests::{Attacked, Clustered, Host, Larvae, Pest, exposure};
 pub use planting::{Grid, Planting};
 pub use plots::Laid;
-pub use site::{DrawnObstacle, Kills, Obstacle, Plane, Site, Wind};
+pub use site::{DrawnObstacle, Kills, Obstacle, Plane, Site, Stems, Wind};
 pub use stand::Stand;
 pub use tables::Table;
 

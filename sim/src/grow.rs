@@ -16,9 +16,11 @@ use crate::plot::{Member, Plot};
 use crate::pose::height;
 use crate::record::{RecordError, Recorder};
 use crate::shed::{note_falls, shed};
+use crate::site::stems::{Stems, Whose};
 use crate::site::{Site, View};
 use rayon::iter::{IndexedParallelIterator, IntoParallelRefIterator, IntoParallelRefMutIterator, ParallelIterator};
 use std::cell::Cell;
+use std::sync::Arc;
 
 /// How a plot came to its end.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -83,7 +85,9 @@ fn follow_ticks(
             return Ok(Ending::Overgrown { age: tick, limit });
         }
         let wanted = recorder.wants(tick);
-        if wanted || (plot.is_looked_at() && (tick > 0 || plot.feels_light())) {
+        // What is sown may have wood already.
+        let met = || plot.feels_light() || plot.site.whose_stems != Whose::Nobody;
+        if wanted || (plot.is_looked_at() && (tick > 0 || met())) {
             plot.stand(tick);
         }
         if wanted {
@@ -117,6 +121,7 @@ impl Plot<'_> {
     pub fn grow_to(&mut self, tick: Tick) -> Result<(), Overgrown> {
         let claims = if self.site.cells.shared { self.claims(tick) } else { Vec::new() };
         let granted = self.site.cells.grant(&claims);
+        self.look_at_stems(tick);
         let site = &self.site;
         let grown = |number: usize, model: &dyn GrowthModel, age: Tick, plant: &mut Plant, life: &mut Life| {
             let view = View { site, granted: granted.get(number).map_or(&[], Vec::as_slice) };
@@ -135,6 +140,18 @@ impl Plot<'_> {
         let side_by_side = plants.par_iter_mut().zip(lives).zip(&*members).enumerate();
         let ends: Vec<Result<(), Overgrown>> = side_by_side.map(one).collect();
         ends.into_iter().collect()
+    }
+
+    /// Makes the stems that shoots meet of the plants as they stood at the end of the last tick, where they meet any.
+    fn look_at_stems(&mut self, tick: Tick) {
+        let Self { plants, members, site, .. } = self;
+        if site.whose_stems == Whose::Nobody {
+            return;
+        }
+        // The stems of the tick before are given back first.
+        site.stems = None;
+        let ages: Vec<Option<Tick>> = members.iter().map(|member| member.age_at(tick.saturating_sub(1))).collect();
+        site.stems = Some(Arc::new(Stems::of(plants, &ages, site.whose_stems)));
     }
 
     /// What each member claims of the site for `tick`, in the order of the plot.

@@ -3,10 +3,10 @@
 //! At each tick the site reads all plants as they stood at the end of the last one, the plants grow side by side and
 //! see the site unchanged ([`View`]), and what they did is gathered in the order of the plot. So no result depends on
 //! the threads. Three things feed back today: light, which buds read; obstacles, shapes that kill the buds that are in
-//! them or out of them, or that shoots meet ([`solids`], with the ground, and the [`way`] past them); and cells of
-//! space that plants claim in the first half of a tick and are granted or refused in the second. What the date alone
-//! decides is the [`calendar`], made of [`date`], [`sun`] and [`degree_days`]; replicates may have [`calendars`] of
-//! their own.
+//! them or out of them, or that shoots meet ([`solids`], with the ground and the [`stems`] of plants, and the [`way`]
+//! past them); and cells of space that plants claim in the first half of a tick and are granted or refused in the
+//! second. What the date alone decides is the [`calendar`], made of [`date`], [`sun`] and [`degree_days`]; replicates
+//! may have [`calendars`] of their own.
 
 pub mod calendar;
 pub mod calendars;
@@ -14,6 +14,7 @@ pub mod date;
 pub mod degree_days;
 pub mod light;
 pub mod solids;
+pub mod stems;
 pub mod sun;
 pub mod way;
 
@@ -26,6 +27,7 @@ use crate::vector::Vector;
 use light::Light;
 use solids::Solids;
 use std::sync::{Arc, OnceLock};
+use stems::{Stems, Whose};
 
 /// The acceleration of gravity by convention, m/s².
 pub const STANDARD_GRAVITY: f64 = 9.80665;
@@ -48,6 +50,11 @@ pub struct Site {
     pub ground: Option<f64>,
     /// What shoots meet, made of the obstacles and the ground when [`Site::solids`] is first called.
     pub made_solids: OnceLock<Arc<Solids>>,
+    /// Whose stems shoots meet.
+    pub whose_stems: Whose,
+    /// The stems that shoots meet, as they stood at the end of the last tick; made by [`crate::Plot::grow_to`] where
+    /// they meet any.
+    pub stems: Option<Arc<Stems>>,
     /// The cells of space that plants claim, where they do.
     pub cells: Cells,
     /// The light in the plot, where something asks for it.
@@ -143,6 +150,8 @@ impl Default for Site {
             obstacles: Vec::new(),
             ground: None,
             made_solids: OnceLock::new(),
+            whose_stems: Whose::Nobody,
+            stems: None,
             cells: Cells::default(),
             light: None,
         }
@@ -158,6 +167,7 @@ impl Site {
     /// Takes the site back to tick 0.
     pub fn restart(&mut self) {
         self.tick = 0;
+        self.stems = None;
         self.cells.clear();
         if let Some(light) = &mut self.light {
             light.found = None;
@@ -171,7 +181,17 @@ impl Site {
 
     /// Whether growth depends on where buds stand, so that plants must be posed at every tick.
     pub fn sees_buds(&self) -> bool {
-        !self.obstacles.is_empty() || self.ground.is_some()
+        !self.obstacles.is_empty() || self.ground.is_some() || self.whose_stems != Whose::Nobody
+    }
+
+    /// Whether shoots may meet something: an obstacle that blocks, the ground or stems.
+    pub fn blocks(&self) -> bool {
+        self.whose_stems != Whose::Nobody || !self.solids().is_empty()
+    }
+
+    /// Whether some obstacle kills buds.
+    pub fn kills(&self) -> bool {
+        self.obstacles.iter().any(|obstacle| obstacle.manner == Manner::Kills)
     }
 
     /// Whether a bud at this point of the plot, metres, is killed by what it has reached.
@@ -196,7 +216,7 @@ impl Site {
         let ground = self.ground.map(|height| height + by[2]);
         let light = self.light.as_ref().map(|light| light.moved(by));
         let cells = self.cells.moved(by);
-        Self { obstacles, ground, cells, light, made_solids: OnceLock::new(), ..self.clone() }
+        Self { obstacles, ground, cells, light, made_solids: OnceLock::new(), stems: None, ..self.clone() }
     }
 
     /// Gravity, and the drag of the wind: ½ ρ C_d U² a square metre with C_d = c U⁻ⁿ.

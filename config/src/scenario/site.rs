@@ -7,6 +7,7 @@ use phytomer_law::fault::{Fault, Path};
 use phytomer_models::buds::params::ColourText;
 use phytomer_models::shapes::{MOST_PARTS, Named, ShapeOrName, Shapes, length_of, one};
 use phytomer_sim::shape::{HalfSpace, Intersection, Shape};
+use phytomer_sim::site::stems::Whose;
 use phytomer_sim::site::{Manner, Obstacle as SimObstacle, STANDARD_GRAVITY, Side, Wind as SimWind};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -31,6 +32,9 @@ pub struct Site {
     /// given.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub ground: bool,
+    /// Whose stems shoots meet, as `"neighbours"` or `"all"`. None if not given: shoots then grow through stems.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub stems: Option<Stems>,
     /// Planes that kill every bud that reaches them, as `[[site.plane]]`: a roof, a wall, a mown height. None if not
     /// given. Each plot has these planes, placed relative to the plot.
     #[serde(skip_serializing_if = "Vec::is_empty")]
@@ -42,6 +46,16 @@ pub struct Site {
     /// the time. None if not given. Each plot has these obstacles, placed relative to the plot.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub obstacle: Vec<Obstacle>,
+}
+
+/// Whose stems shoots meet. The buds that meet one answer as their species states in `[contact]`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Stems {
+    /// Those of the other plants of the plot.
+    Neighbours,
+    /// Those of all plants of the plot, and so those of other axes of the same plant too.
+    All,
 }
 
 /// A shape that kills buds or blocks their way.
@@ -138,6 +152,7 @@ impl Default for Site {
             wind: None,
             latitude_deg: None,
             ground: false,
+            stems: None,
             plane: Vec::new(),
             shape: Shapes::new(),
             obstacle: Vec::new(),
@@ -164,8 +179,13 @@ impl Site {
         let named = self.shapes(none);
         obstacles.extend(self.obstacle.iter().filter_map(|obstacle| obstacle.felt(&named, &Path::root(), none)));
         let ground = self.ground.then_some(0.0);
+        let whose_stems = match self.stems {
+            None => Whose::Nobody,
+            Some(Stems::Neighbours) => Whose::Neighbours,
+            Some(Stems::All) => Whose::All,
+        };
         let open = phytomer_sim::site::Site::default();
-        phytomer_sim::site::Site { gravity: self.gravity_m_s2, wind, obstacles, ground, ..open }
+        phytomer_sim::site::Site { gravity: self.gravity_m_s2, wind, obstacles, ground, whose_stems, ..open }
     }
 
     /// The obstacles of a plot at the origin that pictures and meshes of it show. One that a fault was told of is left
@@ -191,9 +211,9 @@ impl Site {
         Named::of(&self.shape, &Path::root().key("site").key("shape"), faults)
     }
 
-    /// Whether shoots meet anything: an obstacle that blocks, or the ground.
+    /// Whether shoots meet anything: an obstacle that blocks, the ground, or stems.
     pub(crate) fn blocks_shoots(&self) -> bool {
-        self.ground || self.obstacle.iter().any(|obstacle| obstacle.blocks.is_some())
+        self.ground || self.stems.is_some() || self.obstacle.iter().any(|obstacle| obstacle.blocks.is_some())
     }
 
     /// Adds the faults of planes and obstacles that the schema cannot state.

@@ -1,30 +1,56 @@
 //! What is around a bud that grows, and how its next internode lies in it.
 //!
 //! [`Around`] follows the tip of an axis through one tick, from the pose in which it stood at the end of the last one.
-//! Absent: what the bud does about it (`contact`), and the surfaces (`phytomer_sim::site::solids`).
+//! As long as nothing is near it knows the place alone from which the tip has grown on; its frame is found when it is
+//! asked. Absent: what the bud does about it (`contact`), the surfaces (`phytomer_sim::site::solids`) and the stems of
+//! plants (`phytomer_sim::site::stems`).
 
 use super::compile::ContactLaws;
 use super::params::Answer;
-use phytomer_sim::plant::{AxisId, Plant};
-use phytomer_sim::pose::Ahead;
+use phytomer_sim::plant::{AxisId, NodeId, Plant};
+use phytomer_sim::pose::{Ahead, bud_base};
 use phytomer_sim::rotation::Rotation;
 use phytomer_sim::site::Site;
-use phytomer_sim::site::solids::{CLEARANCE, Solids};
+use phytomer_sim::site::solids::{CLEARANCE, Solids, Surface};
+use phytomer_sim::site::stems::{Beside, Spared, Stems};
 use phytomer_sim::site::way::{Hold, Step};
 
 /// What is around a bud that grows.
 pub(super) struct Around<'a> {
     pub solids: &'a Solids,
+    /// The stems of the plot, where shoots meet any.
+    stems: Option<&'a Stems>,
+    /// Those near the bud.
+    beside: Beside,
+    spared: Spared,
     laws: ContactLaws,
     /// The place of the plant in the plot, metres.
     place: [f64; 3],
-    pub ahead: Ahead,
-    /// The distance that is known to be free about the tip, metres.
-    pub free: f64,
+    /// The last node that is posed, and its tip, in the plot.
+    posed: (Option<NodeId>, [f64; 3]),
+    /// The end of the axis from which the next node grows, where it is known.
+    ahead: Option<Ahead>,
+    /// The distance that is known to be free of surfaces about the tip, metres.
+    free: f64,
+    /// The length that the axis has grown in this tick while its end was not known, metres.
+    grown: f64,
     /// The direction out of the surface that the bud feels at this step.
     felt: Option<[f64; 3]>,
     /// Whether there was no way for a node of this step.
     pub stuck: bool,
+}
+
+/// An internode that is to grow.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Next {
+    /// Its length, metres.
+    pub length: f64,
+    /// Its radius, metres.
+    pub radius: f64,
+    /// The trend that it names.
+    pub trend: u8,
+    /// The side to which it turns where both are equal.
+    pub left: bool,
 }
 
 /// How the next internode lies.
@@ -40,17 +66,38 @@ impl<'a> Around<'a> {
     /// What is around the bud of an axis, as it stood at the end of the last tick; `None` where nothing can be met.
     pub fn of(site: &'a Site, laws: ContactLaws, plant: &Plant, axis: AxisId) -> Option<Self> {
         let solids = site.solids();
-        if solids.is_empty() {
+        let stems = site.stems.as_deref().filter(|stems| !stems.is_empty());
+        if solids.is_empty() && stems.is_none() {
             return None;
         }
-        let ahead = Ahead::of_bud(plant, axis);
-        Some(Self { solids, laws, place: plant.place, ahead, free: 0.0, felt: None, stuck: false })
+        let base = bud_base(plant, axis);
+        let place = plant.place;
+        let posed = (plant.axes.last_node[axis.index()].some(), [0, 1, 2].map(|k| place[k] + f64::from(base[k])));
+        let spared = Spared { plant: plant.id, axis: axis.0 };
+        let (beside, ahead, free, grown, felt, stuck) = (Beside::default(), None, 0.0, 0.0, None, false);
+        let mut around = Self { solids, stems, beside, spared, laws, place, posed, ahead, free, grown, felt, stuck };
+        around.free = around.free_about(posed.1, 0.0);
+        Some(around)
     }
 
-    /// The tip in the plot.
+    /// The distance that is free of surfaces about a place, at least `reach` or as far as was looked.
+    fn free_about(&self, place: [f64; 3], reach: f64) -> f64 {
+        let looked = 2.0 * reach + 0.5;
+        self.solids.nearest(place, looked).map_or(looked, |near| near.distance)
+    }
+
+    /// The end of the axis, found where it was not known.
+    pub fn end(&mut self, plant: &Plant) -> &mut Ahead {
+        let axis = AxisId(self.spared.axis);
+        self.ahead.get_or_insert_with(|| Ahead::of_growing(plant, axis, self.posed.0))
+    }
+
+    /// The tip in the plot, where the end of the axis is known; else where it was at the start of the tick.
     pub fn tip(&self) -> [f64; 3] {
-        let base = self.ahead.base();
-        [0, 1, 2].map(|k| self.place[k] + base[k])
+        self.ahead.map_or(self.posed.1, |ahead| {
+            let base = ahead.base();
+            [0, 1, 2].map(|k| self.place[k] + base[k])
+        })
     }
 
     /// The direction out of the surface that is nearest to the tip; upward where none is within `reach`.
@@ -61,64 +108,100 @@ impl<'a> Around<'a> {
 
     /// Whether no surface is within `reach` of the tip. What is far away is asked for again when the shoot has grown
     /// through the distance that was free.
-    pub fn is_far(&mut self, reach: f64) -> bool {
+    pub fn is_far(&mut self, plant: &Plant, reach: f64) -> bool {
         if self.free > reach {
             return true;
         }
-        let looked = 2.0 * reach + 0.5;
-        self.free = self.solids.nearest(self.tip(), looked).map_or(looked, |near| near.distance);
+        self.end(plant);
+        self.free = self.free_about(self.tip(), reach);
         self.free > reach
     }
 
-    /// Feels what is ahead of the bud; whether it meets something.
-    pub fn feel(&mut self) -> bool {
-        (self.felt, self.stuck) = (None, false);
-        let held = if self.laws.answer == Answer::Fasten { self.laws.hold } else { 0.0 };
-        if self.is_far(self.laws.cone.length.max(held)) {
-            return false;
-        }
-        let (tip, [heading, _]) = (self.tip(), self.ahead.directions());
-        if let Some((surface, at)) = self.solids.met(tip, heading, self.laws.cone) {
-            self.felt = Some(self.solids.outward(surface, at));
-        }
-        self.felt.is_some() || self.hold(tip).is_some()
+    /// Whether no stem is within `reach` of the tip; those that are, and some that are not, are known then.
+    fn is_far_from_stems(&mut self, reach: f64) -> bool {
+        let (tip, more) = (self.tip(), if self.ahead.is_none() { self.grown } else { 0.0 });
+        self.stems.is_none_or(|stems| !self.beside.look(stems, tip, reach + more, self.spared))
     }
 
-    /// What a climber holds to at the tip.
-    fn hold(&self, tip: [f64; 3]) -> Option<Hold> {
+    /// The distance at which a climber holds; 0 of other plants.
+    fn held(&self) -> f64 {
+        if self.laws.answer == Answer::Fasten { self.laws.hold } else { 0.0 }
+    }
+
+    /// Feels what is ahead of the bud; whether it meets something.
+    pub fn feel(&mut self, plant: &Plant) -> bool {
+        (self.felt, self.stuck) = (None, false);
+        let reach = self.laws.cone.length.max(self.held());
+        let (far, far_from_stems) = (self.is_far(plant, reach), reach == 0.0 || self.is_far_from_stems(reach));
+        if far && far_from_stems {
+            return false;
+        }
+        let [heading, _] = self.end(plant).directions();
+        let tip = self.tip();
+        let surface = if far { None } else { self.solids.met(tip, heading, self.laws.cone) };
+        self.felt = match surface {
+            Some((surface, at)) => Some(self.solids.outward(surface, at)),
+            None if far_from_stems => None,
+            None => self.beside.met(tip, heading, self.laws.cone),
+        };
+        self.felt.is_some() || self.hold(tip, 0.0).is_some()
+    }
+
+    /// What a climber of this radius holds to at the tip: the surface or the wood that is nearest.
+    fn hold(&self, tip: [f64; 3], radius: f64) -> Option<Hold> {
         if self.laws.answer != Answer::Fasten {
             return None;
         }
-        // A little less than the reach, so that a tip whose place was rounded still counts as one that holds.
-        let near = self.solids.nearest_that_holds(tip, self.laws.hold + 0.01 * CLEARANCE)?;
-        Some(Hold { surface: near.surface, cling: self.laws.cling, reach: self.laws.hold })
+        // A little more than the reach, so that a tip whose place was rounded still counts as one that holds.
+        let reach = self.laws.hold + 0.01 * CLEARANCE;
+        let solid = self.solids.nearest_that_holds(tip, reach).map(|near| (near.distance, near.surface));
+        let wood = (self.spared, self.laws.support);
+        let (distance, surface) = match self.beside.support(tip, self.spared, self.laws.support) {
+            Some((distance, _)) if solid.is_none_or(|(nearest, _)| distance < nearest) => (distance, Surface::Wood),
+            _ => solid?,
+        };
+        let cling = self.laws.cling.max(radius + CLEARANCE);
+        (distance < reach).then_some(Hold { surface, cling, reach: self.laws.hold.max(cling), wood })
     }
 
-    /// Tries the next internode, of this length; `None` where there is no way for it.
-    pub fn try_next(&mut self, length: f64, left: bool) -> Option<Lie> {
-        let held = if self.laws.answer == Answer::Fasten { self.laws.hold } else { 0.0 };
-        if self.is_far(length + held.max(CLEARANCE)) {
-            self.free -= length;
-            self.ahead.grow(length);
+    /// Tries the next internode, which is to turn towards the trend that it names; `None` where there is no way for it.
+    pub fn try_next(&mut self, plant: &Plant, next: Next) -> Option<Lie> {
+        let Next { length, radius, trend, left } = next;
+        let axis = AxisId(self.spared.axis);
+        let reach = length + radius + self.held().max(CLEARANCE);
+        let (far, far_from_stems) = (self.is_far(plant, reach), self.is_far_from_stems(reach));
+        self.free -= length;
+        if far && far_from_stems {
+            match &mut self.ahead {
+                Some(ahead) => {
+                    ahead.tend(plant, axis, trend);
+                    ahead.grow(length);
+                }
+                None => self.grown += length,
+            }
             return Some(Lie::Free);
         }
-        self.free = 0.0;
-        let (from, [wanted, up]) = (self.tip(), self.ahead.directions());
+        let ahead = self.end(plant);
+        let stood = *ahead;
+        ahead.tend(plant, axis, trend);
+        let [wanted, up] = ahead.directions();
+        let from = self.tip();
         let turned = self.felt.filter(|_| matches!(self.laws.answer, Answer::Deflect | Answer::Fasten));
         let heading = turned.and_then(|outward| along_surface(wanted, outward)).unwrap_or(wanted);
-        let step = Step { from, heading, up, length, hold: self.hold(from), left };
+        let step = Step { from, heading, up, length, radius, hold: self.hold(from, radius), left, stems: &self.beside };
         let found = match self.laws.answer {
             Answer::Deflect | Answer::Fasten => self.solids.way(&step),
             Answer::Pause | Answer::Die => self.solids.is_free(&step, heading).then_some(heading),
         };
         let Some(found) = found else {
-            self.stuck = true;
+            (self.stuck, self.ahead) = (true, Some(stood));
             return None;
         };
         let found =
             upright(found).filter(|upright| found != wanted && self.solids.is_free(&step, *upright)).unwrap_or(found);
-        let lie = if found == wanted { Lie::Free } else { Lie::Turned(self.ahead.turn(found)) };
-        self.ahead.grow(length);
+        let ahead = self.end(plant);
+        let lie = if found == wanted { Lie::Free } else { Lie::Turned(ahead.turn(found)) };
+        ahead.grow(length);
         Some(lie)
     }
 }

@@ -1,18 +1,20 @@
-//! What a bud does where it meets an obstacle that blocks, or the ground.
+//! What a bud does where it meets an obstacle that blocks, the ground, or the stem of a plant.
 //!
-//! De Reffye et al. 1988 §4 name the obstruction "due to fixed obstacles" as what their traversal could not do. A bud
-//! is asked at each clock step whether its cone meets a surface, from where it stands; then it pauses, dies, or makes
-//! its growth unit, of which each internode that would enter a solid is turned along it. A node for which there is no
-//! way is not made: the unit ends before it. Turns are stated as rest frames of the nodes, and those of leaves as
-//! theirs, so the pose, bending and all tables follow; a plant that meets nothing states none and is to the byte the
-//! plant of an open site. Absent: the tip and its way (`around`).
+//! De Reffye et al. 1988 §4 name the obstruction "due to fixed obstacles or to part of the plant against another part"
+//! as what their traversal could not do. A bud is asked at each clock step whether its cone meets a surface or a stem,
+//! from where it stands; then it pauses, dies, or makes its growth unit, of which each internode that would enter a
+//! solid or touch a stem is turned along it. A node for which there is no way is not made: the unit ends before it.
+//! Turns are stated as rest frames of the nodes, and those of leaves as theirs, so the pose, bending and all tables
+//! follow; a plant that meets nothing states none and is to the byte the plant of an open site. Absent: the tip and its
+//! way (`around`).
 
-use super::around::{Around, Lie};
+use super::around::{Around, Lie, Next};
 use super::grow::{Axis, Full};
 use super::params::{Answer, ApexEnd};
 use phytomer_sim::plant::{ApexFate, EventKind, NodeId, OrganId, Rest};
 use phytomer_sim::site::Site;
 use phytomer_sim::site::solids::CLEARANCE;
+use phytomer_sim::site::stems::Beside;
 use phytomer_sim::site::way::Step;
 
 impl<'a> Axis<'a> {
@@ -27,7 +29,7 @@ impl<'a> Axis<'a> {
     #[inline]
     pub(super) fn feel(&mut self) {
         if let Some(around) = &mut self.around {
-            self.contact = u32::from(around.feel());
+            self.contact = u32::from(around.feel(self.plant));
         }
     }
 
@@ -52,17 +54,13 @@ impl<'a> Axis<'a> {
         if self.around.is_none() {
             return Some(Lie::Free);
         }
-        let (length, trend) = self.next_internode(self.at(rank), short);
+        let at = self.at(rank);
+        let (length, trend) = self.next_internode(at, short);
         let left = self.plant.axes.key[self.bud.axis.index()].0 & 1 == 1;
-        let axis = self.bud.axis;
+        let radius = 0.5 * f64::from(self.next_diameter(at));
+        let next = Next { length: f64::from(length), radius, trend, left };
         let Self { around: Some(around), plant, .. } = self else { return Some(Lie::Free) };
-        let stood = around.ahead;
-        around.ahead.tend(plant, axis, trend);
-        let lie = around.try_next(f64::from(length), left);
-        if lie.is_none() {
-            around.ahead = stood;
-        }
-        lie
+        around.try_next(plant, next)
     }
 
     /// Turns a leaf of the node that is being dressed whose tip would enter a solid at its birth or as it turns with
@@ -72,18 +70,20 @@ impl<'a> Axis<'a> {
     pub(super) fn lay_leaf(&mut self, leaf: OrganId) {
         let Self { around: Some(around), plant, .. } = self else { return };
         let length = f64::from(plant.organs.length[leaf.index()]);
-        if around.is_far(length + CLEARANCE) {
+        if around.is_far(plant, length + CLEARANCE) {
             return;
         }
-        around.free = 0.0;
+        let headings = around.end(plant).headings_of(plant, leaf);
         let (from, up) = (around.tip(), [0.0, 0.0, 1.0]);
-        let headings = around.ahead.headings_of(plant, leaf);
-        let step = |heading| Step { from, heading, up, length, hold: None, left: true };
+        // A blade has no thickness, and meets surfaces alone.
+        let stems = Beside::NONE;
+        let step = |heading| Step { from, heading, up, length, radius: 0.0, hold: None, left: true, stems };
         let found = headings.map(|heading| around.solids.way(&step(heading)));
         if (0..3).any(|k| found[k] != Some(headings[k]))
             && let Some(heading) = found[2].or(found[0])
         {
-            let turn = around.ahead.organ_turn(heading, around.outward(length));
+            let outward = around.outward(length);
+            let turn = around.end(plant).organ_turn(heading, outward);
             plant.state_organ(leaf, turn, [0.0; 3]);
         }
     }

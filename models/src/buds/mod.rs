@@ -46,6 +46,8 @@ mod tests_responses;
 #[cfg(test)]
 mod tests_sets;
 #[cfg(test)]
+mod tests_stems;
+#[cfg(test)]
 mod tests_training;
 #[cfg(test)]
 mod tests_variables;

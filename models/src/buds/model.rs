@@ -98,8 +98,8 @@ impl BudModel {
     }
 
     /// Grows every living bud first, then the axes that arise meanwhile, each through all its ticks: parents come
-    /// before their children, and nodes of an axis that are grown at once are neighbours in the columns.
-    /// Living buds meet the solids of `site`; axes that arise meanwhile make nothing at the tick of their birth.
+    /// before their children, and nodes of an axis that are grown at once are neighbours in the columns. Living buds
+    /// meet the solids and the stems of `site`; axes that arise meanwhile make nothing at the tick of their birth.
     fn grow_plant(
         &self,
         (plant, site): (&mut Plant, Option<&Site>),
@@ -242,10 +242,10 @@ impl Grow for BudModel {
         LivingBuds(living): &mut LivingBuds,
         view: &View<'_>,
     ) -> Result<(), Overgrown> {
-        if view.site.sees_buds() {
+        if view.site.kills() {
             self.kill_reaching(plant, living, age, view.site)?;
         }
-        let met = Some(view.site).filter(|site| !site.solids().is_empty());
+        let met = Some(view.site).filter(|site| site.blocks());
         self.grow_plant((plant, met), living, age)
     }
 

@@ -99,8 +99,15 @@ impl Axis<'_> {
         (length.draw(&self.words.on_node, 0, at), trend)
     }
 
+    /// The diameter of the next internode at its birth, metres.
+    #[inline]
+    pub(super) fn next_diameter(&self, at: At) -> f32 {
+        self.laws.node.diameter.draw(&self.words.on_node, 0, at)
+    }
+
     fn internode(&mut self, rank: u32, short: bool, neoformed: bool, at: At) -> NodeId {
         let (length, trend) = self.next_internode(at, short);
+        let diameter = self.next_diameter(at);
         let laws = &self.laws.node;
         let words = &self.words.on_node;
         let along = self.bud.rank + 1;
@@ -114,7 +121,7 @@ impl Axis<'_> {
             neoformed,
             trend,
             length,
-            diameter: laws.diameter.draw(words, 0, at),
+            diameter,
             azimuth: self.bud.azimuth,
         };
         let turned = self.bud.azimuth + laws.divergence.draw(words, 0, at);

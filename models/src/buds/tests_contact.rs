@@ -15,13 +15,13 @@ use phytomer_sim::site::{Manner, Obstacle, Side};
 use phytomer_sim::{Tick, grow};
 use std::sync::Arc;
 
-fn compiled(text: serde_json::Value, until: Tick) -> BudModel {
+pub(super) fn compiled(text: serde_json::Value, until: Tick) -> BudModel {
     let buds: Buds = serde_json::from_value(text).expect("parameters");
     buds.compile(until, &Path::root()).unwrap_or_else(|faults| panic!("{faults:?}"))
 }
 
 /// Three orders that spread in all directions, hanging and rising, with units of several nodes.
-fn bush(contact: serde_json::Value) -> serde_json::Value {
+pub(super) fn bush(contact: serde_json::Value) -> serde_json::Value {
     let order = |length: f64, insertion: f64, inclination: f64| {
         serde_json::json!({
             "pause": 0.2, "growth_unit": {"nodes": 2, "per_step": 2}, "axillary": {"buds": 1, "ramification": 0.4},
@@ -51,7 +51,7 @@ fn grown(model: &BudModel, until: Tick, number: u32, change: impl FnOnce(&mut Pl
 }
 
 /// The nodes of a plant, metres in the plot.
-fn nodes(plant: &Plant) -> impl Iterator<Item = Point> {
+pub(super) fn nodes(plant: &Plant) -> impl Iterator<Item = Point> {
     (0..plant.nodes.len()).map(|node| {
         let tip = node_frame(plant, NodeId(node as u32)).base;
         [0, 1, 2].map(|k| plant.place[k] + f64::from(tip[k]))
@@ -79,7 +79,7 @@ fn box_mesh(low: Point, high: Point) -> Mesh {
 }
 
 /// A number from 0 to 1 for each of a sequence, equal on every machine.
-fn fraction(state: &mut u64) -> f64 {
+pub(super) fn fraction(state: &mut u64) -> f64 {
     *state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
     (*state >> 40) as f64 / (1_u64 << 24) as f64
 }

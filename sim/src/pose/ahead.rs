@@ -5,9 +5,9 @@
 //! something. The pose keeps more digits of the slope than a frame does: the two agree to some micrometres. Absent:
 //! what is met (`crate::site::solids`), and bending, which turns what is tried here with all that was there before.
 
-use super::{bearing_frame, bud_frame, course};
+use super::{bearing_frame, course, node_frame, start_frame};
 use crate::plant::frames::{Directions, Frame, Plane};
-use crate::plant::{AxisId, OrganId, Plant};
+use crate::plant::{AxisId, NodeId, OrganId, Plant};
 use crate::rotation::Rotation;
 use crate::vector::Vector;
 
@@ -24,12 +24,34 @@ pub struct Ahead {
 }
 
 impl Ahead {
-    /// The bud of an axis; its bearer, or its last node, must be posed.
-    pub fn of_bud(plant: &Plant, axis: AxisId) -> Self {
-        let frame = bud_frame(plant, axis);
-        let begins = plant.axes.last_node[axis.index()].some().is_none();
-        let before = if begins { bearing_frame(plant, axis) } else { frame };
-        Self { base: Vector::from(frame.base), directions: directions(&frame), before: directions(&before), begins }
+    /// The bud of an axis whose last node is `last`, or that has none yet; this node, or the bearer, must be posed.
+    pub fn of_bud(plant: &Plant, axis: AxisId, last: Option<NodeId>) -> Self {
+        let frame = last.map_or_else(|| start_frame(plant, axis), |last| node_frame(plant, last));
+        let before = if last.is_none() { bearing_frame(plant, axis) } else { frame };
+        let directions = [&frame, &before].map(directions);
+        Self {
+            base: Vector::from(frame.base),
+            directions: directions[0],
+            before: directions[1],
+            begins: last.is_none(),
+        }
+    }
+
+    /// As [`Ahead::of_bud`] at the last node of an axis, of which the nodes above `posed` are not posed yet.
+    pub fn of_growing(plant: &Plant, axis: AxisId, posed: Option<NodeId>) -> Self {
+        let mut ahead = Self::of_bud(plant, axis, posed);
+        let nodes = &plant.nodes;
+        let mut new = Vec::new();
+        let mut last = plant.axes.last_node[axis.index()].some();
+        while let Some(node) = last.filter(|node| Some(*node) != posed && nodes.axis[node.index()] == axis) {
+            new.push(node.index());
+            last = nodes.parent[node.index()].some();
+        }
+        for node in new.into_iter().rev() {
+            ahead.tend(plant, axis, nodes.trend[node]);
+            ahead.grow(f64::from(nodes.length[node]));
+        }
+        ahead
     }
 
     /// The end of the axis, metres from the seed.

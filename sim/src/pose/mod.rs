@@ -109,6 +109,15 @@ pub fn bud_frame(plant: &Plant, axis: AxisId) -> Frame {
     }
 }
 
+/// The place of the apical bud of an axis, the base of [`bud_frame`].
+pub fn bud_base(plant: &Plant, axis: AxisId) -> [f32; 3] {
+    match plant.axes.last_node[axis.index()].some() {
+        Some(node) => node_frame(plant, node).base,
+        None if plant.stated.is_empty() => bearing_frame(plant, axis).base,
+        None => start_frame(plant, axis).base,
+    }
+}
+
 /// The frame of the bearer of an axis: its bearing node, or the upward vertical at the seed.
 fn bearing_frame(plant: &Plant, axis: AxisId) -> Frame {
     match plant.axes.bearer[axis.index()].some() {

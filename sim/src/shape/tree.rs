@@ -59,8 +59,10 @@ impl Tree {
                 middles().fold(f64::NEG_INFINITY, f64::max) - middles().fold(f64::INFINITY, f64::min)
             };
             let axis = (1..3).fold(0, |widest, axis| if spread(axis) > spread(widest) { axis } else { widest });
-            items.sort_unstable_by(|a, b| middle(*a, axis).total_cmp(&middle(*b, axis)).then(a.cmp(b)));
-            let (first, second) = items.split_at_mut(items.len() / 2);
+            // Which items are in a half follows from their order, so the tree is that of sorted items.
+            let half = items.len() / 2;
+            items.select_nth_unstable_by(half, |a, b| middle(*a, axis).total_cmp(&middle(*b, axis)).then(a.cmp(b)));
+            let (first, second) = items.split_at_mut(half);
             self.add(bounds, first);
             self.add(bounds, second);
         }

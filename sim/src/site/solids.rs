@@ -27,6 +27,8 @@ pub enum Surface {
     Ground,
     /// The solid of this number, in the order of the obstacles.
     Solid(u32),
+    /// The wood of other plants, which is known beside the solids (`stems`).
+    Wood,
 }
 
 /// The nearest surface.
@@ -88,6 +90,7 @@ impl Solids {
         match surface {
             Surface::Ground => false,
             Surface::Solid(number) => self.solids[number as usize].holds,
+            Surface::Wood => true,
         }
     }
 
@@ -126,10 +129,11 @@ impl Solids {
         near
     }
 
-    /// The distance to a surface, metres, negative within.
+    /// The distance to a surface, metres, negative within. Of wood nothing is known here.
     pub fn distance(&self, surface: Surface, point: Point) -> f64 {
         match surface {
             Surface::Ground => self.ground.map_or(f64::INFINITY, |height| point[2] - height),
+            Surface::Wood => f64::INFINITY,
             Surface::Solid(number) => {
                 let Solid { shape, sign, .. } = &self.solids[number as usize];
                 sign * shape.distance(point)
@@ -173,15 +177,15 @@ impl Solids {
         }
     }
 
-    /// Whether no surface lies on the way of this length from a point that is in no solid.
-    pub fn is_clear(&self, from: Point, heading: Point, length: f64) -> bool {
+    /// Whether each surface is farther than a margin from the way of this length, from a point that is in no solid.
+    pub fn is_clear(&self, [from, heading]: [Point; 2], length: f64, margin: f64) -> bool {
         let least = length / STEPS;
         let mut way = least;
         while way < length {
-            let near = self.nearest(along(from, heading, way), length);
+            let near = self.nearest(along(from, heading, way), length + margin);
             match near {
-                Some(near) if near.distance <= 0.0 => return false,
-                Some(near) => way += near.distance.max(least),
+                Some(near) if near.distance <= margin => return false,
+                Some(near) => way += (near.distance - margin).max(least),
                 None => way += length,
             }
         }

@@ -9,7 +9,7 @@ use super::run::ages_in_words;
 use anyhow::Result;
 use phytomer::run::forecast::{Figure, Forecast};
 use phytomer_config::Resolved;
-use phytomer_config::scenario::{Design, Planting, Soil, Table};
+use phytomer_config::scenario::{Design, Planting, Soil, Stems, Table};
 use serde_json::{Value, json};
 use std::collections::BTreeSet;
 use std::fmt::Write as _;
@@ -47,6 +47,11 @@ pub fn as_text(resolved: &Resolved) -> String {
     }
     if scenario.site.ground {
         line("ground", "shoots meet it".to_owned());
+    }
+    match scenario.site.stems {
+        None => {}
+        Some(Stems::Neighbours) => line("stems", "shoots meet those of the other plants of their plot".to_owned()),
+        Some(Stems::All) => line("stems", "shoots meet those of all plants of their plot".to_owned()),
     }
     match scenario.site.obstacle.iter().filter(|obstacle| obstacle.blocks.is_some()).count() {
         0 => {}

@@ -1,13 +1,14 @@
 //! What buds do where they meet an obstacle or the ground, as a species states it.
 //!
-//! A scenario says what is solid; the species says how far a bud feels and how it answers. Absent: the shapes
-//! (`crate::shapes`), and how a shoot finds its way past them (`phytomer_sim::site::way`).
+//! A scenario says what is solid, and whether shoots meet the stems of plants; the species says how far a bud feels and
+//! how it answers. Absent: the shapes (`crate::shapes`), and how a shoot finds its way past them
+//! (`phytomer_sim::site::way`).
 
 use crate::law::Constant;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// What a bud does where it meets something solid: an obstacle that blocks, or the ground.
+/// What a bud does where it meets something solid: an obstacle that blocks, the ground, or the stem of a plant.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Contact {
@@ -25,6 +26,10 @@ pub struct Contact {
     /// not given.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub hold_m: Option<Constant>,
+    /// For `answer = "fasten"`: the least diameter of the wood of other plants to which a shoot holds, centimetres. 1
+    /// if not given.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub support_cm: Option<Constant>,
 }
 
 /// What a bud does where it meets something solid.
@@ -50,6 +55,7 @@ impl Default for Contact {
             half_angle_deg: Constant::Number(30.0),
             cling_m: None,
             hold_m: None,
+            support_cm: None,
         }
     }
 }
