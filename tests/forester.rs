@@ -114,7 +114,7 @@ fn a_stand_thins_itself_by_whole_trees() {
         shaded += usize::from(cause[row] == "shaded");
     }
     assert!(shaded > 50, "{shaded} buds of the dead died of shade");
-    let open = text.replace("[light]\nvoxel_m = 0.5\n", "");
+    let open = text.replace("[light]\nvoxel_m = 0.5\n", "").replace("\"periodic\"", "\"open\"");
     assert_ne!(open, text);
     let open = grow(folder.path(), &open, "open");
     assert_eq!(ratios(&open, 10.0, ["tick", "tick"]).len(), 25, "all live in full light");
