@@ -1,8 +1,8 @@
 //! A column chunk: pages that are cut where the crate `parquet` cuts them, compressed, and told of as it tells of them.
 //!
-//! A page ends after the batch of rows in which it has as many as a page may have; a dictionary that has become too large
-//! gives way after the batch in which it has. Batches are those of that crate's writer of columns, so that its files and
-//! these are the same bytes; `tests` compares the two. Absent: the values themselves (`coding`).
+//! A page ends after the batch of rows in which it has as many as a page may have; a dictionary that has become too
+//! large gives way after the batch in which it has. Batches are those of that crate's writer of columns, so that its
+//! files and these are the same bytes; `tests` compares the two. Absent: the values themselves (`coding`).
 
 use super::levels::Levels;
 use super::{Chunk, Described};

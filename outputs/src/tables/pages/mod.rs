@@ -1,10 +1,9 @@
-//! Columns as finished Parquet column chunks, encoded here: several times as fast as by the crate `parquet`, and the same
-//! bytes.
+//! Columns as finished Parquet column chunks, encoded here: faster than by the crate `parquet`, and the same bytes.
 //!
 //! The crate stays the writer of files, of their metadata and of their index, and it encodes what is left to it: words
 //! longer than statistics hold, lists of words larger than a dictionary may be, places outside of a list, which it
-//! refuses. [`encode`] takes O(n) for n rows; a chunk is held in memory until its row group is written. Absent: the values
-//! (`buffers`), the threads (`encode` of the tables).
+//! refuses. [`encode`] takes O(n) for n rows; a chunk is held in memory until its row group is written. Absent: the
+//! values (`buffers`), the threads (`encode` of the tables).
 
 mod chunk;
 mod coding;

@@ -185,8 +185,8 @@ mod tests {
         out
     }
 
-    /// The second example of the format's own description: 7, 5, 3, 1, 2, 3, 4, 5, whose differences from −2 are 0, 0, 0, 3,
-    /// 3, 3, 3 in two bits each.
+    /// The second example of the format's own description: 7, 5, 3, 1, 2, 3, 4, 5, whose differences from −2 are 0, 0,
+    /// 0, 3, 3, 3, 3 in two bits each.
     #[test]
     fn differences_are_those_of_the_format() {
         let header = [0x80, 0x01, 4, 8, 14];
