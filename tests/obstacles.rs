@@ -213,7 +213,7 @@ fn ivies_climb_the_oak() {
             let along = [0, 1, 2].map(|k| to[k] - from[k]);
             let square: f64 = along.iter().map(|x| x * x).sum();
             let share = ((0..3).map(|k| along[k] * (at[k] - from[k])).sum::<f64>() / square).clamp(0.0, 1.0);
-            let out: f64 = (0..3).map(|k| (at[k] - from[k] - share * along[k]).powi(2)).sum();
+            let out: f64 = (0..3).map(|k| at[k] - from[k] - share * along[k]).map(|apart| apart * apart).sum();
             let [base, tip] = [tree.nodes.diameter[node.index()], tree.nodes.diameter_tip[node.index()]].map(f64::from);
             out.sqrt() - 0.5 * (base + share * (tip - base))
         };

@@ -1,6 +1,7 @@
 //! Plants of the shipped species, or draws of a law alone, and the growth units that they make.
 //!
-//! Seeds are fixed. Orders that a data set does not need are cut off, since no axis depends on the axes that it bears.
+//! Seeds are fixed. Orders that a data set does not need are cut off, since no axis depends on the axes that it bears;
+//! and so are responses, since each has its reference.
 
 use phytomer_config::{Model, validate_species};
 use phytomer_models::buds::params::GrowthUnit;
@@ -15,6 +16,8 @@ pub fn shipped(name: &str, orders: usize) -> Buds {
     let species = validate_species(name, 1).unwrap_or_else(|report| panic!("{}", report.render(false))).species;
     let Model::Buds(mut buds) = species.model else { panic!("{name} is not of the bud model") };
     buds.order.truncate(orders);
+    // In the light and on the ground of the measured trees responses change nothing, and they name orders that are cut.
+    buds.response.clear();
     buds
 }
 
