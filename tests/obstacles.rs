@@ -151,19 +151,19 @@ fn nothing_is_below_the_ground_of_any_shipped_scenario() {
 #[test]
 fn every_form_of_shape_blocks() {
     let folder = tempfile::tempdir().unwrap();
-    let rock = "{ form = \"mesh\", points_m = [[0.05, -0.3, 0.02], [0.7, -0.3, 0.02], [0.05, 0.4, 0.02], [0.1, 0, 0.6]], \
+    let rock = "{ form = \"mesh\", points_m = [[0.05, -0.3, 0.02], [0.7, -0.3, 0.02], [0.05, 0.4, 0.02], [0.1, 0, 0.9]], \
                 faces = [[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]] }";
     let forms = [
         "{ form = \"half_space\", point_m = [0.06, 0, 0], normal = [-1, 0, 0] }",
         "{ form = \"box\", at_m = [0.3, 0, 0.05], size_m = [0.5, 0.4, 0.5] }",
-        "{ form = \"sphere\", at_m = [0.25, 0, 0.25], radius_m = 0.2 }",
-        "{ form = \"ellipsoid\", at_m = [0.25, 0, 0.25], radii_m = [0.2, 0.3, 0.2] }",
+        "{ form = \"sphere\", at_m = [0.3, 0, 0.4], radius_m = 0.28 }",
+        "{ form = \"ellipsoid\", at_m = [0.3, 0, 0.4], radii_m = [0.28, 0.35, 0.3] }",
         "{ form = \"cylinder\", at_m = [0.2, 0, 0.03], radius_m = 0.12, height_m = 0.5 }",
         "{ form = \"cone\", at_m = [0.2, 0, 0.03], radius_m = 0.15, height_m = 0.6 }",
-        "{ form = \"capsule\", from_m = [0.1, -0.3, 0.2], to_m = [0.1, 0.3, 0.2], radius_m = 0.05 }",
-        "{ form = \"torus\", at_m = [0, 0, 0.2], ring_radius_m = 0.15, radius_m = 0.06 }",
-        "{ form = \"polyline\", points_m = [[0.08, -0.4, 0.1], [0.08, 0.1, 0.2], [-0.1, 0.2, 0.3]], radii_m = [0.03, 0.03, 0.02] }",
-        "{ form = \"soft\", points = [{ at_m = [0.25, 0, 0.25], reach_m = 0.35 }] }",
+        "{ form = \"capsule\", from_m = [0.1, -0.3, 0.45], to_m = [0.1, 0.3, 0.45], radius_m = 0.05 }",
+        "{ form = \"torus\", at_m = [0, 0, 0.45], ring_radius_m = 0.15, radius_m = 0.06 }",
+        "{ form = \"polyline\", points_m = [[0.08, -0.4, 0.4], [0.08, 0.1, 0.5], [-0.1, 0.2, 0.6]], radii_m = [0.03, 0.03, 0.02] }",
+        "{ form = \"soft\", points = [{ at_m = [0.3, 0, 0.4], reach_m = 0.45 }] }",
         rock,
         "{ form = \"union\", of = [\"ball\", \"post\"] }",
         "{ form = \"intersection\", of = [\"ball\", \"case\"] }",
@@ -173,10 +173,10 @@ fn every_form_of_shape_blocks() {
     ];
     for (number, form) in forms.iter().enumerate() {
         let text = format!(
-            "name = \"forms\"\nspecies = \"coffee\"\nplants = 1\nages = {{ until = 26 }}\nsite.gravity_m_s2 = 0\n\
-             [site.shape]\nball = {{ form = \"sphere\", at_m = [0.25, 0, 0.25], radius_m = 0.2 }}\n\
-             post = {{ form = \"cylinder\", at_m = [0.2, 0, 0.03], radius_m = 0.1, height_m = 0.5 }}\n\
-             case = {{ form = \"box\", at_m = [0.3, 0, 0.05], size_m = [0.5, 0.4, 0.5] }}\n\
+            "name = \"forms\"\nspecies = \"coffee\"\nplants = 1\nages = {{ until = 40 }}\nsite.gravity_m_s2 = 0\n\
+             [site.shape]\nball = {{ form = \"sphere\", at_m = [0.3, 0, 0.4], radius_m = 0.28 }}\n\
+             post = {{ form = \"cylinder\", at_m = [0.2, 0, 0.03], radius_m = 0.1, height_m = 0.8 }}\n\
+             case = {{ form = \"box\", at_m = [0.3, 0, 0.4], size_m = [0.5, 0.4, 0.5] }}\n\
              [[site.obstacle]]\nblocks = \"inside\"\nshape = {form}\n"
         );
         let file = folder.path().join(format!("{number}.toml"));
@@ -184,10 +184,10 @@ fn every_form_of_shape_blocks() {
         let resolved = shipped(&file.display().to_string());
         let plots = Plots::of(resolved.trial(), resolved.models());
         let mut plot = plots.sow(0, ThreadBudget::default());
-        grow(&mut plot, 26, &mut ()).expect("nothing is recorded");
-        plot.stand(26);
+        grow(&mut plot, 40, &mut ()).expect("nothing is recorded");
+        plot.stand(40);
         let plant = &plot.plants[0];
-        let within = tips(plant, 26).take(plant.nodes.len()).find(|at| plot.site.bars_at(*at));
+        let within = tips(plant, 40).take(plant.nodes.len()).find(|at| plot.site.bars_at(*at));
         assert!(within.is_none(), "{form}: {within:?}");
         assert!(plant.nodes.len() > 50 && !plant.stated.is_empty(), "{form}: nothing has met it");
     }

@@ -19,7 +19,7 @@ use std::thread::sleep;
 use std::time::{Duration, Instant};
 
 /// Enough plants to keep a process busy for longer than the test runs.
-const PLANTS: &str = "240";
+const PLANTS: &str = "600";
 
 /// A process that grows many plants into the folder `run`.
 fn growing(home: &Path, more: &[&str]) -> Child {

@@ -65,13 +65,16 @@ fn last_ages() -> BTreeMap<String, Tick> {
     ages
 }
 
+/// Species whose stems do not carry themselves: the tomato hangs on a string, which the model does not know.
+const ON_STRINGS: [&str; 1] = ["tomato"];
+
 /// Greenhill's limit with the whole crown as its load: the stiffness that is left under load stays positive at every
 /// age.
 #[test]
 fn the_trunk_of_every_shipped_species_stands_at_every_age() {
     let ages = last_ages();
     presets(Kind::Species).par_iter().for_each(|(name, _)| {
-        let Some(mut buds) = buds(name) else { return };
+        let Some(mut buds) = buds(name).filter(|_| !ON_STRINGS.contains(name)) else { return };
         // Species that state no wood are given that of a birch.
         let wood = buds.wood.get_or_insert_with(Wood::default);
         wood.bends = true;

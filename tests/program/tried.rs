@@ -6,7 +6,8 @@
 
 #![allow(dead_code, reason = "each program uses a part of it")]
 
-use phytomer::config::scenario::{All, MeshAges, MeshPlants, Record};
+use phytomer::config::scenario::stand::Layout;
+use phytomer::config::scenario::{All, Laid, MeshAges, MeshPlants, Record};
 use phytomer::config::{Report, Resolved, Scenario};
 use phytomer::run::{self, Outcome, Progress, Settings};
 use std::path::Path;
@@ -14,6 +15,8 @@ use std::path::Path;
 /// The most treatments, plants, ages and components of a mutant without faults; larger numbers are lowered.
 const MOST_TREATMENTS: usize = 2;
 const MOST_PLANTS: u32 = 2;
+/// The most members of a plot that is a stand; a larger stand is one plant.
+const MOST_MEMBERS: u32 = 12;
 const MOST_AGES: u32 = 12;
 const MOST_COMPONENTS: u32 = 2_000;
 
@@ -54,13 +57,21 @@ pub fn cap(resolved: &mut Resolved) -> bool {
     (scenario.plants, scenario.ages.until) != asked_for
 }
 
-/// Whole plots, of which the last plant is sown before the last tick; events and attacks begin by the last tick.
+/// Whole plots, small ones where they are stands, of which the last plant is sown before the last tick; events and
+/// attacks begin by the last tick.
 fn cap_plots(scenario: &mut Scenario) {
+    if scenario.stand.is_some() && scenario.members() > MOST_MEMBERS {
+        (scenario.stand, scenario.laid) = (None, Laid::default());
+    }
     let members = scenario.members();
     scenario.plants = scenario.plants.min((MOST_PLANTS / members).max(1) * members);
     scenario.ages.until = scenario.ages.until.min(MOST_AGES);
     let last_sowing = scenario.ages.until - 1;
     scenario.member.iter_mut().for_each(|member| member.sown = member.sown.min(last_sowing));
+    if let Some(Layout::Places(places)) = scenario.stand.as_mut().map(|stand| &mut stand.layout) {
+        places.at.iter_mut().for_each(|place| place.sown = place.sown.map(|sown| sown.min(last_sowing)));
+        scenario.laid = Laid::default();
+    }
     let last = scenario.ages.until;
     for event in &mut scenario.event {
         let times = [&mut event.tick, &mut event.age, &mut event.until];
