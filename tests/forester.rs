@@ -12,6 +12,7 @@ use phytomer::run::picturing::pictured_plot;
 use phytomer::run::plots::Plots;
 use phytomer::run::regrowth::Regrowth;
 use phytomer_measures::line::Pairs;
+use phytomer_sim::math;
 use program::{hashes, run, write};
 use read::Columns;
 use std::collections::{BTreeMap, BTreeSet};
@@ -55,7 +56,7 @@ fn stand(trees: u32, side_m: u32, years: u32, record: &str) -> String {
 fn mean(of: &[f64]) -> (f64, f64) {
     let n = of.len() as f64;
     let mean = of.iter().sum::<f64>() / n;
-    let squares = of.iter().map(|value| (value - mean).powi(2)).sum::<f64>();
+    let squares = of.iter().map(|value| (value - mean) * (value - mean)).sum::<f64>();
     (mean, (squares / (n - 1.0) / n).sqrt())
 }
 
@@ -182,7 +183,7 @@ fn an_independent_reader_finds_the_same_slope_of_self_thinning() {
             (0..tick.len()).filter(|row| tick[*row] == f64::from(at) && alive[*row] == 1.0).collect();
         if at > 3 && living.len() as f64 <= 0.8 * 64.0 {
             let mean = living.iter().map(|row| wood[*row]).sum::<f64>() / living.len() as f64;
-            pairs.add((living.len() as f64 / 64.0).ln(), mean.ln());
+            pairs.add(math::log(living.len() as f64 / 64.0), math::log(mean));
         }
     }
     let line = pairs.major_axis(0.95).expect("a slope");

@@ -23,7 +23,7 @@ fn rays_find_what_the_rasteriser_draws() {
         let seen = silhouette(&mesh, source.towards, APART[1] as f32).expect("it fits");
         let [area, outline, error] = [seen.area_m2, seen.outline_m, seen.error_m2].map(f64::from);
         let shadow = rays.shadow(&source);
-        let both = error.hypot((0.0724 * outline * APART[0] * APART[0] * APART[0]).sqrt());
+        let both = (error * error + 0.0724 * outline * APART[0] * APART[0] * APART[0]).sqrt();
         assert!((shadow - area).abs() <= 4.0 * both, "{source:?}: {shadow} by rays, {area} drawn, ± {both}");
         assert!(4.0 * both < 0.02 * area, "the bound tells something: {both} of {area}");
         let on_ground = source.weight / source.towards[2];
