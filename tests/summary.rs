@@ -90,7 +90,7 @@ fn all() -> Vec<Resolved> {
 }
 
 /// A few plants of a stand, in each replicate and treatment: two of a row, the inner ones of a spoke, of a list one of
-/// each species, sown at an age that is tested.
+/// each species, sown at an age that is tested; of hills and of drawn places one plant.
 fn thin(scenario: &mut Scenario, last_sowing: u32) {
     let Some(stand) = &mut scenario.stand else { return };
     match &mut stand.layout {
@@ -104,14 +104,14 @@ fn thin(scenario: &mut Scenario, last_sowing: u32) {
             places.at.retain(|place| species.insert(place.species.clone()));
             places.at.iter_mut().for_each(|place| place.sown = place.sown.map(|sown| sown.min(last_sowing)));
         }
-        Layout::Hills(_) | Layout::Random(_) => {}
+        Layout::Hills(_) | Layout::Random(_) => scenario.stand = None,
     }
     scenario.laid = Laid::default();
     scenario.plants = scenario.members();
 }
 
 /// The scenario with two plots, at an age that is quickly tested, with all tables and the columns of mechanics. Of the
-/// members of its plots the first of each species is kept, of a stand one plant.
+/// members of its plots the first of each species is kept, of a stand a few plants.
 fn small(mut resolved: Resolved) -> Resolved {
     let scenario = &mut resolved.scenario;
     let until = scenario.ages.until;
@@ -123,8 +123,6 @@ fn small(mut resolved: Resolved) -> Resolved {
     let every = until.div_ceil(AGES);
     scenario.ages.until = until;
     scenario.ages.record = Record::Every(Every { every, from: Some(until - every * ((until - 1) / every)) });
-    // Of a stand one tree is kept.
-    scenario.stand = None;
     let mut species = BTreeSet::new();
     scenario.member.retain(|member| species.insert(member.species.clone()));
     scenario.plants = 2 * scenario.members();

@@ -51,7 +51,7 @@ struct Numbers<'a, T> {
     /// The first value that is not written, and the first of the present page.
     at: usize,
     from: usize,
-    /// The dictionary that became too large.
+    /// The dictionary as it was when it became too large: values after it are written without one.
     given: Option<Dictionary>,
 }
 

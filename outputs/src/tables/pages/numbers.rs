@@ -20,11 +20,12 @@ pub trait Number: Copy + PartialOrd {
     fn bits(self) -> u64;
     /// It as a whole number, where it is one.
     fn whole(self) -> i64;
-    /// The difference of two whole numbers, which wraps around at the width of the type.
+    /// `left` − `right` of two whole numbers; what overflows the width of the type wraps around.
     fn less(left: i64, right: i64) -> i64;
-    /// The bits of a difference of two differences.
+    /// `left` − `right` of two differences, without a sign, in the width of the type.
     fn above(left: i64, right: i64) -> u64;
-    /// The least and the greatest of two zeros of either sign; others stay as they are.
+    /// Zero with the sign that statistics have: −0 as a least value, +0 as a greatest one. Other numbers stay as they
+    /// are.
     fn with_sign_of_zero(self, negative: bool) -> Self;
 }
 
