@@ -26,13 +26,13 @@ fn stems(plants: Vec<OfPlant>, whose: Whose) -> Stems {
 #[test]
 fn what_is_near_is_what_asking_each_stem_finds() {
     let some = |seed: usize| -> Vec<([f32; 3], [f32; 3], f32)> {
-        let at = |k: usize, prime: usize| ((k * prime + seed) % 97) as f32 / 97.0;
+        let at = |k: usize, prime: usize| ((k * prime + seed) % 251) as f32 / 251.0;
         let stem = |k: usize| {
             let start = [at(k, 7), at(k, 11), at(k, 13)];
             let along = [at(k, 17) - 0.5, at(k, 19) - 0.5, at(k, 23)].map(|x| 0.2 * x);
             (start, [0, 1, 2].map(|axis| start[axis] + along[axis]), 0.01 + 0.02 * at(k, 29))
         };
-        (0..60).map(stem).collect()
+        (0..240).map(stem).collect()
     };
     let plants: Vec<OfPlant> =
         (0..9).map(|k| of_plant(k, [f64::from(k % 3), f64::from(k / 3), 0.0], &some(k as usize))).collect();
@@ -42,7 +42,7 @@ fn what_is_near_is_what_asking_each_stem_finds() {
         for asked in 0..300_u32 {
             let [x, y, z] = [7, 11, 13].map(|prime| f64::from(asked * prime % 97) / 97.0);
             let (point, reach) = ([3.2 * x, 3.2 * y, z], 0.02 + 0.2 * z);
-            let spared = Spared { plant: asked % 9, axis: asked % 60 };
+            let spared = Spared { plant: asked % 9, axis: asked % 240 };
             let mut near = Vec::new();
             all.each_near(point, reach, spared, &mut |plant, stem| near.push((plant.number, stem.axis)));
             near.sort_unstable();
