@@ -3,7 +3,8 @@
 //! This is the facade: the crates of the house under short names, and [`run`], which makes a run folder out of a
 //! scenario; [`fitted`] has species of measured branches; [`forest`] plants a landscape from a raster; [`report`]
 //! tells of runs in a page; [`sample`] grows a few plants of a species to hold them against what was published;
-//! [`simulate`] tells what plants of other numbers are like. The command line is the binary's own (`cli/`).
+//! [`simulate`] tells what plants of other numbers are like; [`cli`] is the whole command line as one function, for the
+//! binary and for whoever brings the program along.
 //!
 //! ```no_run
 //! use phytomer::run::{self, Progress, Settings};
@@ -21,8 +22,13 @@ pub use phytomer_outputs as outputs;
 pub use phytomer_sim as sim;
 pub use phytomer_weather as weather;
 
+// The verbs speak of this crate by its name.
+extern crate self as phytomer;
+
 pub mod architecture;
 pub mod asystem;
+#[doc(hidden)]
+pub mod cli;
 pub mod counted;
 pub mod fitted;
 pub mod forest;

@@ -28,7 +28,7 @@ pub mod regrowth;
 pub mod viewing;
 
 pub use error::RunError;
-pub use in_memory::{InMemory, in_memory, in_memory_here};
+pub use in_memory::{InMemory, in_memory, in_memory_here, in_memory_within};
 pub use plan::{Program, plan_of};
 pub use plots::{component_limit, seed_of};
 pub use progress::{Progress, Reading};

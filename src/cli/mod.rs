@@ -26,7 +26,7 @@ mod list;
 mod measure;
 mod merge;
 mod mesh;
-mod named;
+pub mod named;
 mod out;
 mod picture;
 mod query;
@@ -46,6 +46,8 @@ use anyhow::Result;
 use clap::{Parser, Subcommand};
 use phytomer_config::Report;
 use serde_json::json;
+use std::ffi::OsString;
+use std::io;
 use std::process::ExitCode;
 
 const VERSION: &str = concat!(env!("CARGO_PKG_VERSION"), " (", env!("PHYTOMER_GIT_HASH"), ")");
@@ -136,6 +138,30 @@ impl From<Verdict> for ExitCode {
 #[derive(Debug, Clone, thiserror::Error)]
 #[error("{0}")]
 pub struct Misuse(pub String);
+
+/// Obeys a command line, whose first word is the name of the program: parse, dispatch, exit code.
+///
+/// 0 ok, 1 the run failed, 2 usage, 3 invalid input, 130 interrupted. stdout carries data, stderr messages and
+/// progress; a reader that closes stdout early (`| head`) ends the program quietly. `--help` and a command line that
+/// cannot be parsed end the process.
+pub fn main(words: impl IntoIterator<Item = impl Into<OsString> + Clone>) -> Verdict {
+    match Cli::parse_from(words).obey() {
+        Ok(verdict) => verdict,
+        Err(error) if is_closed_pipe(&error) => Verdict::Done,
+        Err(error) => {
+            terminal::say(&format!("error: {}", causes::in_words(&error)));
+            let misuse = error.is::<Misuse>();
+            if misuse { Verdict::Usage } else { Verdict::Failed }
+        }
+    }
+}
+
+fn is_closed_pipe(error: &anyhow::Error) -> bool {
+    let closed = |cause: &(dyn std::error::Error + 'static)| {
+        cause.downcast_ref::<io::Error>().is_some_and(|error| error.kind() == io::ErrorKind::BrokenPipe)
+    };
+    error.chain().any(closed)
+}
 
 impl Cli {
     /// Does what the verb says.

@@ -5,6 +5,7 @@
 
 use super::disk::TooSmall;
 use phytomer_models::fault::Fault;
+use phytomer_outputs::tables::TableError;
 use phytomer_sim::model::Overgrown;
 use phytomer_sim::{RecordError, Tick};
 use std::io;
@@ -97,6 +98,10 @@ impl RunError {
     pub(super) fn of_recorder(error: RecordError) -> Self {
         let error = match error.downcast::<Self>() {
             Ok(own) => return *own,
+            Err(error) => error,
+        };
+        let error = match error.downcast::<TableError>() {
+            Ok(table) => return Self::Outputs((*table).into()),
             Err(error) => error,
         };
         match error.downcast::<phytomer_outputs::Error>() {

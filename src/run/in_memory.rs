@@ -6,14 +6,16 @@
 
 use super::{Grower, Keeper, Program, Progress, RunError, forms, in_turn, plan_of, pool};
 use phytomer_config::Resolved;
-use phytomer_outputs::tables::{MemoryTables, TableBatches, treatments};
+use phytomer_outputs::tables::{MemoryTables, Room, TableBatches, treatments};
 use phytomer_outputs::{OvergrownPlot, RunPlan, Table};
 use phytomer_sim::{Ending, Plot, RecordError, Recorder, Tick};
+use std::sync::Arc;
 
 /// What a run in memory has made.
 #[derive(Debug, Clone, Default)]
 pub struct InMemory {
-    /// The record batches of each table that the scenario asks for, in the order of its rows.
+    /// The record batches of each table that the scenario asks for, in the order of its rows. A table without rows is
+    /// one empty batch.
     pub batches: TableBatches,
     /// The plots that ended by a limit.
     pub overgrown: Vec<OvergrownPlot>,
@@ -43,9 +45,23 @@ pub struct InMemory {
 /// [`RunError::Stopped`] where it was told to stop; a plant of more components than a table can hold; a mesh of the
 /// species' own that is gone.
 pub fn in_memory(resolved: &Resolved, threads: usize, progress: &Progress) -> Result<InMemory, RunError> {
+    in_memory_within(resolved, threads, Room::default(), progress)
+}
+
+/// As [`in_memory`], in a bounded room.
+///
+/// # Errors
+/// As [`in_memory`], and [`TableError::NoRoom`](phytomer_outputs::tables::TableError::NoRoom) where the tables outgrow
+/// it.
+pub fn in_memory_within(
+    resolved: &Resolved,
+    threads: usize,
+    room: Room,
+    progress: &Progress,
+) -> Result<InMemory, RunError> {
     let (resolved, _) = forms::settled(resolved)?;
     let plan = plan_of(&resolved, &Program::default())?;
-    grown(&resolved, &plan, threads, progress)
+    grown(&resolved, &plan, (threads, room), progress)
 }
 
 /// As [`in_memory`], on the thread that calls it and in the pool that the thread is of: for callers that grow many
@@ -56,17 +72,22 @@ pub fn in_memory(resolved: &Resolved, threads: usize, progress: &Progress) -> Re
 pub fn in_memory_here(resolved: &Resolved) -> Result<InMemory, RunError> {
     let (resolved, _) = forms::settled(resolved)?;
     let (plan, progress) = (plan_of(&resolved, &Program::default())?, Progress::default());
-    let grower = Grower::of(&resolved, &plan, &progress);
+    let (grower, room) = (Grower::of(&resolved, &plan, &progress), Arc::default());
     let shards: Result<Vec<InMemory>, RunError> =
-        (0..plan.shards()).map(|shard| MemoryKeeper::grown(&grower, shard)).collect();
+        (0..plan.shards()).map(|shard| MemoryKeeper::grown(&grower, &room, shard)).collect();
     joined(shards?, &plan)
 }
 
-fn grown(resolved: &Resolved, plan: &RunPlan, threads: usize, progress: &Progress) -> Result<InMemory, RunError> {
+fn grown(
+    resolved: &Resolved,
+    plan: &RunPlan,
+    (threads, room): (usize, Room),
+    progress: &Progress,
+) -> Result<InMemory, RunError> {
     progress.begin(&resolved.scenario, resolved.trial().plants().into(), plan.shards() as usize);
-    let grower = Grower::of(resolved, plan, progress);
+    let (grower, room) = (Grower::of(resolved, plan, progress), Arc::new(room));
     let all: Vec<u32> = (0..plan.shards()).collect();
-    let grown = |shard| MemoryKeeper::grown(&grower, shard);
+    let grown = |shard| MemoryKeeper::grown(&grower, &room, shard);
     let shards = pool(threads)?.install(|| in_turn::on_all_threads(&all, grown))?;
     joined(shards, plan)
 }
@@ -79,6 +100,13 @@ fn joined(shards: Vec<InMemory>, plan: &RunPlan) -> Result<InMemory, RunError> {
             run.batches.entry(table).or_default().extend(batches);
         }
         run.overgrown.extend(shard.overgrown);
+    }
+    for batches in run.batches.values_mut() {
+        let first = batches.first().map(|batch| batch.slice(0, 0));
+        batches.retain(|batch| batch.num_rows() > 0);
+        if batches.is_empty() {
+            batches.extend(first);
+        }
     }
     if plan.tables.contains(&Table::Treatments) {
         let rows = treatments::batch(plan).map_err(phytomer_outputs::Error::from)?;
@@ -96,8 +124,8 @@ struct MemoryKeeper<'a> {
 
 impl<'a> MemoryKeeper<'a> {
     /// The tables of one shard.
-    fn grown(grower: &'a Grower<'a>, shard: u32) -> Result<InMemory, RunError> {
-        let mut keeper = Self { grower, tables: MemoryTables::of(grower.plan), overgrown: Vec::new() };
+    fn grown(grower: &'a Grower<'a>, room: &Arc<Room>, shard: u32) -> Result<InMemory, RunError> {
+        let mut keeper = Self { grower, tables: MemoryTables::of(grower.plan, room), overgrown: Vec::new() };
         if !grower.grow_shard(shard, &mut keeper)? {
             return Err(RunError::Stopped);
         }

@@ -37,6 +37,14 @@ pub enum TableError {
         /// Arrow's error.
         source: Cause,
     },
+    /// The tables outgrow the memory that they may take.
+    #[error("the tables outgrow the {most_mb} MB of memory that they may take, while `{table}` is filled")]
+    NoRoom {
+        /// The table that was being filled.
+        table: &'static str,
+        /// What all tables of the run may take, megabytes.
+        most_mb: u64,
+    },
     /// A column of a table is not of the type that its schema states.
     #[error("the table {} has no column `{column}` of the stated type", path.display())]
     Column {

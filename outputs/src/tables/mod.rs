@@ -46,7 +46,7 @@ pub use error::{Cause, TableError};
 pub(crate) use events::{EventColumns, SortedEvents};
 pub use membership::Membership;
 pub(crate) use membership::by_number;
-pub use memory::{MemoryTables, TableBatches};
+pub use memory::{MemoryTables, Room, TableBatches};
 pub(crate) use of_species::OfSpecies;
 pub(crate) use part::{Part, PartReport};
 pub use plan::{Factor, Input, OfMember, Provenance, RunPlan};
