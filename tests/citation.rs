@@ -73,8 +73,8 @@ fn every_paper_of_the_project_is_there() {
         let names = heading.split(year).next().unwrap_or_default().replace('&', ",");
         let names: Vec<&str> = names.split(',').filter_map(|name| name.split_whitespace().last()).collect();
         let is_it = |work: &&String| {
-            let named = |name: &&str| work.contains(&format!("family-names: {name}\n"));
-            value(work, 4, "year") == Some(year) && names.iter().all(|name| named(&name))
+            let named = |name| work.contains(&format!("family-names: {name}\n"));
+            value(work, 4, "year") == Some(year) && names.iter().all(named)
         };
         assert_eq!(works.iter().filter(is_it).count(), 1, "{names:?} {year}");
     }

@@ -102,7 +102,7 @@ pub(super) mod sse2 {
     #[inline]
     #[target_feature(enable = "sse2")]
     fn make<const GROUPS: usize>(name: &Name, counter: u64, blocks: &mut [Block; GROUPS]) {
-        let start: [__m128i; 3] = name.rows().map(|row| cast(row));
+        let start: [__m128i; 3] = name.rows().map(cast);
         let last: [__m128i; GROUPS] =
             std::array::from_fn(|group| cast(name.last_row(counter.wrapping_add(group as u64))));
         let ([mut a, mut b, mut c], mut d) = (start.map(|row| [row; GROUPS]), last);
