@@ -13,7 +13,7 @@ use std::fs;
 use std::path::Path;
 use tempfile::tempdir;
 
-const VERBS: [&str; 22] = [
+const VERBS: [&str; 24] = [
     "init",
     "grow",
     "merge",
@@ -36,6 +36,8 @@ const VERBS: [&str; 22] = [
     "report",
     "asystem",
     "shade",
+    "completions",
+    "man",
 ];
 
 /// The examples of a verb's help: the lines that begin with the program's name.

@@ -11,6 +11,7 @@ mod bar;
 mod budget;
 pub mod causes;
 mod colouring;
+mod completions;
 mod constants;
 mod convert;
 mod derive;
@@ -23,6 +24,7 @@ mod grow;
 mod init;
 mod interrupt;
 mod list;
+mod man;
 mod measure;
 mod merge;
 mod mesh;
@@ -76,6 +78,8 @@ Examples:
   phytomer report runs/coffee --out told.html   what became of its plants, as a page with charts
   phytomer asystem my_trees.asys --out drawn    trees by the commands of the A-system
   phytomer shade my_court/site.toml             hours of shade on the zones of a plan, month by month
+  phytomer completions bash                     what a shell needs to complete verbs and options
+  phytomer man pages                            a manual page for each verb
 
 `phytomer help <verb>` has more of each.";
 
@@ -111,6 +115,8 @@ enum Verb {
     Sensitivity(sensitivity::Sensitivity),
     Asystem(asystem::Asystem),
     Shade(shade::ShadeVerb),
+    Completions(completions::Completions),
+    Man(man::ManVerb),
 }
 
 /// How the program ends, other than by an error.
@@ -192,6 +198,8 @@ impl Cli {
             Verb::Sensitivity(verb) => verb.obey(),
             Verb::Asystem(verb) => verb.obey(),
             Verb::Shade(verb) => verb.obey(),
+            Verb::Completions(verb) => verb.obey(),
+            Verb::Man(verb) => verb.obey(),
         }
     }
 }

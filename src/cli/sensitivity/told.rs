@@ -117,7 +117,7 @@ impl Told {
             let _ = writeln!(text, "{} of {}, {plants} a simulation", summary.name, self.species);
             let names = ["range", "effect (95 %)", "spread", "first (95 %)", "total (95 %)"];
             let [range, effect, spread, first, total] = names;
-            let _ = writeln!(text, "  {:<wide$}  {range:<22}{effect:<28}{spread:<10}{first:<22}{total}", "number");
+            let _ = writeln!(text, "  {:<wide$}  {range:<22}{effect:<28}{spread:<10}{first:<26}{total}", "number");
             for own in &summary.numbers {
                 let range = format!("{}..{}", short(own.limits[0]), short(own.limits[1]));
                 let effect = within(own.effect.size, own.effect.size_within, short);
@@ -128,7 +128,7 @@ impl Told {
                 let (first, total) =
                     (index(|own| (own.first, own.first_within)), index(|own| (own.total, own.total_within)));
                 let spread = short(own.effect.spread);
-                let line = format!("  {:<wide$}  {range:<22}{effect:<28}{spread:<10}{first:<22}{total}", own.name);
+                let line = format!("  {:<wide$}  {range:<22}{effect:<28}{spread:<10}{first:<26}{total}", own.name);
                 let _ = writeln!(text, "{}", line.trim_end());
             }
             if let Some((share, limits)) = noise {

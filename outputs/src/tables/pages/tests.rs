@@ -184,11 +184,16 @@ fn chunks_are_those_of_the_crate_byte_for_byte() {
     }
 }
 
-/// Small groups, drawn: 5,000 here, or as many as `PHYTOMER_CHUNKS` says.
+/// A number of the environment.
+fn asked(name: &str, otherwise: u64) -> u64 {
+    let asked = std::env::var(name).ok();
+    asked.map_or(otherwise, |asked| asked.parse().unwrap_or_else(|_| panic!("{name} is a number, not {asked}")))
+}
+
+/// Small groups, drawn: 5,000 here, or as many as `PHYTOMER_CHUNKS` says, from the seed `PHYTOMER_CHUNKS_SEED`.
 #[test]
 fn chunks_of_drawn_groups_are_those_of_the_crate() {
-    let asked = std::env::var("PHYTOMER_CHUNKS").ok();
-    let groups: u64 = asked.map_or(5_000, |asked| asked.parse().expect("PHYTOMER_CHUNKS is a number"));
+    let (groups, seed) = (asked("PHYTOMER_CHUNKS", 5_000), asked("PHYTOMER_CHUNKS_SEED", 1989));
     let all = columns();
     let of_thread = |seed: u64| {
         let mut draw = Draw(seed);
@@ -201,8 +206,8 @@ fn chunks_of_drawn_groups_are_those_of_the_crate() {
         }
     };
     std::thread::scope(|scope| {
-        let other = scope.spawn(|| of_thread(1990));
-        of_thread(1989);
+        let other = scope.spawn(|| of_thread(seed.wrapping_add(1)));
+        of_thread(seed);
         other.join().expect("no group differs");
     });
 }

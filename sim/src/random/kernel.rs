@@ -1,0 +1,67 @@
+//! Which code makes the blocks of a stream: what this machine does fastest, found when the program runs.
+//!
+//! Every kernel makes the same words, so no result depends on the machine; tests compare each with `rand_chacha`. The
+//! standard library asks the processor once and keeps the answer. Here stands the only `unsafe` of this crate.
+
+use super::block::{Block, Name, block};
+#[cfg(target_arch = "x86_64")]
+use super::x86::{avx2, sse2};
+
+/// Code that makes blocks, which this machine can run: one is made by [`Kernel::all`] alone, or by [`Kernel::fastest`].
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Kernel(Code);
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Code {
+    /// One block at a time, on any machine.
+    #[cfg_attr(target_arch = "x86_64", allow(dead_code, reason = "other machines and the tests have it"))]
+    Scalar,
+    /// Four at once.
+    #[cfg(target_arch = "x86_64")]
+    Sse2,
+    /// Eight at once.
+    #[cfg(target_arch = "x86_64")]
+    Avx2,
+}
+
+impl Kernel {
+    /// The fastest that this machine has.
+    #[inline]
+    pub fn fastest() -> Self {
+        #[cfg(target_arch = "x86_64")]
+        let code = if is_x86_feature_detected!("avx2") { Code::Avx2 } else { Code::Sse2 };
+        #[cfg(not(target_arch = "x86_64"))]
+        let code = Code::Scalar;
+        Self(code)
+    }
+
+    /// All that this machine has.
+    #[cfg(test)]
+    pub fn all() -> Vec<Self> {
+        let mut all = vec![Self(Code::Scalar)];
+        #[cfg(target_arch = "x86_64")]
+        all.push(Self(Code::Sse2));
+        all.extend((!all.contains(&Self::fastest())).then(Self::fastest));
+        all
+    }
+
+    /// Makes the blocks of a stream from block `counter` on, as many as `blocks` holds.
+    #[inline]
+    #[allow(unsafe_code, reason = "calls of functions whose instructions not every machine has")]
+    pub fn fill(self, name: &Name, counter: u64, blocks: &mut [Block]) {
+        if self.0 == Code::Scalar {
+            return blocks.iter_mut().zip(counter..).for_each(|(into, counter)| *into = block(name, counter));
+        }
+        // SAFETY: all three are safe code without a pointer; a call asks only that the machine has their instructions.
+        // SSE2 is part of x86-64 itself. `Code::Avx2` is made in `fastest` alone, after the processor has said that it
+        // has AVX2 and the system that it keeps the registers; the type is private to this file.
+        #[cfg(target_arch = "x86_64")]
+        unsafe {
+            match (self.0, blocks) {
+                (_, [one]) => sse2::one(name, counter, one),
+                (Code::Avx2, blocks) => avx2::fill(name, counter, blocks),
+                (_, blocks) => sse2::fill(name, counter, blocks),
+            }
+        }
+    }
+}
