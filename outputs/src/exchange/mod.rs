@@ -6,10 +6,15 @@
 //! which the caller has, and parametric trees of other programs, which are species and no plants (`config/peers`).
 
 mod contract;
+mod cursor;
 mod description;
+mod drawn;
 mod losses;
+mod numbers;
+mod opf;
 mod report;
 mod text;
+mod xml;
 
 pub use contract::{Format, InMemory, Incoming, MOST_BYTES, MOST_ENTITIES, Outgoing, Units};
 pub use description::{
@@ -21,7 +26,7 @@ pub use report::{Fault, MOST_TOLD, Place, Report, Warning};
 pub use text::{decoded, place_of, plain, said};
 
 /// Every format. A new one is a line here and a file beside this one.
-pub static FORMATS: [&dyn Format; 0] = [];
+pub static FORMATS: [&dyn Format; 1] = [&opf::Opf];
 
 /// The format with a word, such as `mtg`.
 pub fn by_word(word: &str) -> Option<&'static dyn Format> {
