@@ -8,6 +8,7 @@
 mod contract;
 mod description;
 mod losses;
+mod mtg;
 mod report;
 mod text;
 
@@ -21,7 +22,7 @@ pub use report::{Fault, MOST_TOLD, Place, Report, Warning};
 pub use text::{decoded, place_of, plain, said};
 
 /// Every format. A new one is a line here and a file beside this one.
-pub static FORMATS: [&dyn Format; 0] = [];
+pub static FORMATS: [&dyn Format; 1] = [&mtg::Mtg];
 
 /// The format with a word, such as `mtg`.
 pub fn by_word(word: &str) -> Option<&'static dyn Format> {
