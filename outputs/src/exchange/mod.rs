@@ -10,6 +10,7 @@ mod cursor;
 mod description;
 mod drawn;
 mod losses;
+mod mtg;
 mod numbers;
 mod opf;
 mod report;
@@ -26,7 +27,7 @@ pub use report::{Fault, MOST_TOLD, Place, Report, Warning};
 pub use text::{decoded, place_of, plain, said};
 
 /// Every format. A new one is a line here and a file beside this one.
-pub static FORMATS: [&dyn Format; 1] = [&opf::Opf];
+pub static FORMATS: [&dyn Format; 2] = [&mtg::Mtg, &opf::Opf];
 
 /// The format with a word, such as `mtg`.
 pub fn by_word(word: &str) -> Option<&'static dyn Format> {
