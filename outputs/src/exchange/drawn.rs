@@ -5,6 +5,7 @@
 //! does not tell what it looks like. Absent: how formats write it.
 
 use super::description::{Description, Entity, Form, Material, Mesh, Role, Shape};
+use super::vectors::{frame, upward};
 use phytomer_looks::FormName;
 use phytomer_meshes::{Depth, MeshOptions};
 use phytomer_sim::plant;
@@ -25,6 +26,8 @@ pub struct Drawn {
     pub materials: Vec<Material>,
     /// Shapes, likewise.
     pub shapes: Vec<Shape>,
+    /// Of each mesh whether widths taper it: all but those that some entity is drawn with without any.
+    pub tapered: Vec<bool>,
     /// The added shape of each role.
     added: Vec<(Role, u32)>,
 }
@@ -36,12 +39,18 @@ impl Drawn {
             meshes: description.meshes.clone(),
             materials: description.materials.clone(),
             shapes: description.shapes.clone(),
+            tapered: vec![true; description.meshes.len()],
             added: Vec::new(),
         };
+        let entities = || description.individuals.iter().flat_map(|plant| &plant.entities);
+        for form in entities().filter_map(|entity| entity.form.as_ref()).filter(|form| form.taper.is_none()) {
+            if let Some(shape) = drawn.shapes.get(form.shape as usize) {
+                drawn.tapered[shape.mesh as usize] = false;
+            }
+        }
         for role in [Role::Internode, Role::Leaf, Role::Flower, Role::Fruit] {
             let lacks = |entity: &&Entity| entity.form.is_none() && description.role_of(entity) == role;
-            let mut entities = description.individuals.iter().flat_map(|plant| &plant.entities);
-            if entities.by_ref().filter(lacks).any(|entity| placed(entity).is_some()) {
+            if entities().filter(lacks).any(|entity| placed(entity).is_some()) {
                 drawn.add(role);
             }
         }
@@ -57,7 +66,19 @@ impl Drawn {
             material: Some(self.materials.len() as u32),
         });
         self.meshes.push(mesh);
+        self.tapered.push(true);
         self.materials.push(material(name, colour));
+    }
+
+    /// The shape of an entity; `None` where it is not drawn.
+    pub fn shape(&self, role: Role, entity: &Entity) -> Option<u32> {
+        match &entity.form {
+            Some(form) => Some(form.shape),
+            None => {
+                let (_, shape) = self.added.iter().find(|(known, _)| *known == role)?;
+                placed(entity).map(|_| *shape)
+            }
+        }
     }
 
     /// How an entity is drawn; `None` where it is not.
@@ -83,25 +104,6 @@ fn placed(entity: &Entity) -> Option<([[f64; 4]; 3], [f64; 2])> {
     let up = seen.up.unwrap_or_else(|| upward(along));
     let matrix = frame(along.map(|x| x * (length / UNIT)), up, place);
     Some((matrix, [base / UNIT, tip / UNIT]))
-}
-
-/// The matrix with these directions of x and z, and y across them to the left.
-pub fn frame(along: [f64; 3], up: [f64; 3], place: [f64; 3]) -> [[f64; 4]; 3] {
-    let length = (along[0] * along[0] + along[1] * along[1] + along[2] * along[2]).sqrt();
-    let left = if length > 0.0 { cross(up, along).map(|x| x / length) } else { [0.0; 3] };
-    [0, 1, 2].map(|k| [along[k], left[k], up[k], place[k]])
-}
-
-/// The direction across another that points up the most; that of y where the other is upright.
-pub fn upward([x, y, z]: [f64; 3]) -> [f64; 3] {
-    let across = [-z * x, -z * y, x * x + y * y];
-    let length = (across[0] * across[0] + across[1] * across[1] + across[2] * across[2]).sqrt();
-    if length < 1e-9 { [0.0, 1.0, 0.0] } else { across.map(|x| x / length) }
-}
-
-/// The cross product.
-pub fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 
 /// Name, mesh and colour of what stands for entities of a role.

@@ -12,9 +12,13 @@ mod drawn;
 mod losses;
 mod mtg;
 mod numbers;
+mod obj;
 mod opf;
+mod ops;
+mod qsm;
 mod report;
 mod text;
+mod vectors;
 mod xml;
 
 pub use contract::{Format, InMemory, Incoming, MOST_BYTES, MOST_ENTITIES, Outgoing, Units};
@@ -27,7 +31,8 @@ pub use report::{Fault, MOST_TOLD, Place, Report, Warning};
 pub use text::{decoded, place_of, plain, said};
 
 /// Every format. A new one is a line here and a file beside this one.
-pub static FORMATS: [&dyn Format; 2] = [&mtg::Mtg, &opf::Opf];
+pub static FORMATS: [&dyn Format; 7] =
+    [&mtg::Mtg, &opf::Opf, &ops::Ops, &qsm::TreeQsm, &qsm::TreeQsm15, &qsm::QsmTable, &obj::Obj];
 
 /// The format with a word, such as `mtg`.
 pub fn by_word(word: &str) -> Option<&'static dyn Format> {

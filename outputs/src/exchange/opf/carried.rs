@@ -10,6 +10,7 @@ use super::super::description::{Feature, FeatureType, Form, Individual, Role, Sh
 use super::super::numbers::{is_lacking, number};
 use super::super::report::Report;
 use super::super::text::said;
+use super::super::vectors::{norm, unit};
 use super::super::xml::{Element, Piece, Xml};
 use super::parts::{CM, Declared, Parts, numbers, whole};
 use super::passed::left_out;
@@ -330,18 +331,4 @@ fn span(points: &[[f64; 3]]) -> f64 {
     let least = points.iter().map(|point| point[0]).fold(f64::INFINITY, f64::min);
     let most = points.iter().map(|point| point[0]).fold(f64::NEG_INFINITY, f64::max);
     if points.is_empty() { 0.0 } else { most - least }
-}
-
-/// The length of a vector.
-pub(super) fn norm(of: [f64; 3]) -> f64 {
-    (of[0] * of[0] + of[1] * of[1] + of[2] * of[2]).sqrt()
-}
-
-/// A vector of length 1, as it is where it has that length but for rounding; `None` for one of no length.
-pub(super) fn unit(of: [f64; 3]) -> Option<[f64; 3]> {
-    let length = norm(of);
-    if (length - 1.0).abs() < 1e-6 {
-        return Some(of);
-    }
-    (length.is_finite() && length > 0.0).then(|| of.map(|x| x / length))
 }

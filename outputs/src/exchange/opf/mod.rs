@@ -12,12 +12,12 @@ mod order;
 mod parts;
 mod passed;
 mod topology;
+mod used;
 mod words;
 mod write;
 
 use super::contract::{Format, Incoming, Outgoing};
 use super::description::{Description, Role};
-use super::drawn::Drawn;
 use super::losses::Losses;
 use super::report::Report;
 use super::text::{decoded, said};
@@ -25,8 +25,9 @@ use super::xml::{Piece, Xml};
 use carried::Carried;
 use parts::Parts;
 use passed::left_out;
-use std::io::{self, Write};
+use std::io;
 use topology::Plants;
+pub(super) use write::Writing;
 
 /// The format.
 pub struct Opf;
@@ -56,7 +57,8 @@ impl Format for Opf {
         let standing = description.individuals.iter().filter(|plant| plant.standing.is_some()).count() as u64;
         losses.add("places of plants in their plot", standing, "a scene (`ops`) holds them");
         let plants: Vec<usize> = (0..description.individuals.len()).collect();
-        out.file(None, &mut |file| write(description, &plants, file, losses))
+        let writing = Writing::of(description, losses);
+        out.file(None, &mut |file| writing.file(&plants, file, losses))
     }
 }
 
@@ -155,15 +157,4 @@ fn inside(xml: &mut Xml<'_>, incoming: &Incoming<'_>, described: &mut Descriptio
     let (features, ticks_per_year) = (found.features, found.ticks_per_year);
     let Parts { meshes, materials, .. } = parts;
     *described = Description { individuals, classes, features, meshes, materials, shapes, ticks_per_year };
-}
-
-/// Writes some plants of a description as one file.
-pub(super) fn write(
-    description: &Description,
-    plants: &[usize],
-    file: &mut dyn Write,
-    losses: &mut Losses,
-) -> io::Result<()> {
-    let drawn = Drawn::of(description);
-    write::Writer::of(description, &drawn, file, losses).all(plants)
 }

@@ -6,7 +6,7 @@
 //! recurses. Absent: what an element carries (`carried`).
 
 use super::super::contract::MOST_ENTITIES;
-use super::super::description::{Class, Entity, Individual, Link};
+use super::super::description::{Class, Entity, Individual, Link, Role};
 use super::super::report::Report;
 use super::super::text::said;
 use super::super::xml::{Element, Piece, Xml};
@@ -104,12 +104,13 @@ impl Plants {
         }
         let Some(scale) = self.scale(way, element, place, report) else { return self.give_up(xml, report) };
         let symbol = element.attribute("class").unwrap_or("").trim();
-        let is_scene = way == Way::Topology && (role(symbol) == super::super::description::Role::Scene || scale == 0);
+        let is_scene = way == Way::Topology && (role(symbol) == Role::Scene || scale == 0);
         if is_scene {
             self.open.push(Open { entity: None, scale, chains: Vec::new() });
             return;
         }
-        let Some(class) = self.class(symbol, scale, place, report) else { return self.give_up(xml, report) };
+        let stated = element.attribute("role").map_or_else(|| role(symbol), role);
+        let Some(class) = self.class(symbol, scale, stated, place, report) else { return self.give_up(xml, report) };
         match self.entity(way, class, scale, place, report) {
             Some(entity) => self.open.push(Open { entity: Some(entity), scale, chains: Vec::new() }),
             None => self.give_up(xml, report),
@@ -138,7 +139,14 @@ impl Plants {
         })
     }
 
-    fn class(&mut self, symbol: &str, scale: u32, place: (usize, usize), report: &mut Report) -> Option<u32> {
+    fn class(
+        &mut self,
+        symbol: &str,
+        scale: u32,
+        role: Role,
+        place: (usize, usize),
+        report: &mut Report,
+    ) -> Option<u32> {
         if symbol.is_empty() {
             report.fault(place, "an entity has no `class`", "`class=\"Internode\"` or the like");
             return None;
@@ -151,7 +159,7 @@ impl Plants {
             return None;
         }
         let class = self.classes.len() as u32;
-        self.classes.push(Class { symbol: symbol.to_owned(), scale, role: role(symbol) });
+        self.classes.push(Class { symbol: symbol.to_owned(), scale, role });
         self.class_of.insert((symbol.to_owned(), scale), class);
         Some(class)
     }

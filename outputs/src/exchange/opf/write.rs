@@ -6,16 +6,16 @@
 //! order of elements (`order`), and the forms of entities without one (`drawn`).
 
 use super::super::description::{Description, Entity, FeatureType, Form, Individual, Mesh, Observation, Value};
-use super::super::drawn::{Drawn, cross};
+use super::super::drawn::Drawn;
 use super::super::losses::Losses;
 use super::super::numbers::{is_lacking, push};
+use super::super::vectors::{cross, unit};
 use super::super::xml::escaped;
-use super::carried::unit;
 use super::fields::{PLACES, SIZES, fields, names};
 use super::order::{Order, Step, Way};
 use super::parts::CM;
-use super::words::{KNOWN, class};
-use std::collections::BTreeSet;
+use super::used::Used;
+use super::words::{KNOWN, class, role};
 use std::fmt::Write as _;
 use std::io::{self, Write};
 
@@ -24,12 +24,36 @@ const GATHERED: usize = 1 << 16;
 /// The deepest indentation.
 const DEEPEST: usize = 12;
 
-/// A file that is being written.
-pub(super) struct Writer<'a> {
+/// What all files of a description are written from.
+pub(in super::super) struct Writing<'a> {
     described: &'a Description,
-    drawn: &'a Drawn,
+    drawn: Drawn,
     /// The attribute of each feature.
     names: Vec<String>,
+}
+
+impl<'a> Writing<'a> {
+    /// Of a description.
+    pub fn of(described: &'a Description, losses: &mut Losses) -> Self {
+        Self { described, drawn: Drawn::of(described), names: names(described, losses) }
+    }
+
+    /// Writes some plants as one file.
+    ///
+    /// # Errors
+    /// Those of the file.
+    pub fn file(&self, plants: &[usize], file: &mut dyn Write, losses: &mut Losses) -> io::Result<()> {
+        let order = |plant: &usize| (*plant, Order::of(&self.described.individuals[*plant], &self.described.classes));
+        let orders: Vec<(usize, Order)> = plants.iter().map(order).collect();
+        let used = Used::of(self.described, &self.drawn, &orders);
+        Writer { of: self, used, file, losses, text: String::new(), id: 1 }.all(&orders)
+    }
+}
+
+/// A file that is being written.
+struct Writer<'a> {
+    of: &'a Writing<'a>,
+    used: Used,
     file: &'a mut dyn Write,
     losses: &'a mut Losses,
     text: String,
@@ -37,27 +61,21 @@ pub(super) struct Writer<'a> {
     id: u64,
 }
 
-impl<'a> Writer<'a> {
-    /// A file of some plants of a description.
-    pub fn of(described: &'a Description, drawn: &'a Drawn, file: &'a mut dyn Write, losses: &'a mut Losses) -> Self {
-        let names = names(described, losses);
-        Self { described, drawn, names, file, losses, text: String::new(), id: 1 }
-    }
-
+impl Writer<'_> {
     /// Writes these plants.
-    pub fn all(mut self, plants: &[usize]) -> io::Result<()> {
+    fn all(mut self, plants: &[(usize, Order)]) -> io::Result<()> {
         self.text.push_str("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<opf version=\"2.0\" editable=\"true\">\n");
         self.meshes()?;
         self.materials();
         self.shapes();
-        self.attributes(plants);
+        self.attributes();
         match plants {
-            [one] => self.plant(*one, true, 1)?,
+            [(one, order)] => self.plant(*one, order, true, 1)?,
             many => {
                 let _ = writeln!(self.text, "\t<topology class=\"Scene\" scale=\"0\" id=\"{}\">", self.id);
                 self.id += 1;
-                for plant in many {
-                    self.plant(*plant, false, 2)?;
+                for (plant, order) in many {
+                    self.plant(*plant, order, false, 2)?;
                 }
                 self.text.push_str("\t</topology>\n");
             }
@@ -77,9 +95,10 @@ impl<'a> Writer<'a> {
 
     fn meshes(&mut self) -> io::Result<()> {
         self.text.push_str("\t<meshBDD>\n");
-        for (id, mesh) in self.drawn.meshes.iter().enumerate() {
-            // A mesh whose widths nothing states is not tapered.
-            let is_tapered = self.is_tapered(id as u32);
+        let of = self.of;
+        for (id, number) in self.used.meshes.all.clone().into_iter().enumerate() {
+            let mesh = &of.drawn.meshes[number as usize];
+            let is_tapered = of.drawn.tapered[number as usize];
             let name = escaped(&mesh.name).into_owned();
             let _ =
                 writeln!(self.text, "\t\t<mesh name=\"{name}\" shape=\"\" Id=\"{id}\" enableScale=\"{is_tapered}\">");
@@ -89,15 +108,6 @@ impl<'a> Writer<'a> {
         }
         self.text.push_str("\t</meshBDD>\n");
         Ok(())
-    }
-
-    /// Whether no entity draws a mesh without widths.
-    fn is_tapered(&self, mesh: u32) -> bool {
-        let plain = |entity: &Entity| {
-            let form = entity.form.as_ref().filter(|form| form.taper.is_none());
-            form.and_then(|form| self.drawn.shapes.get(form.shape as usize)).is_some_and(|shape| shape.mesh == mesh)
-        };
-        !self.described.individuals.iter().flat_map(|plant| &plant.entities).any(plain)
     }
 
     fn mesh(&mut self, mesh: &Mesh) {
@@ -135,7 +145,9 @@ impl<'a> Writer<'a> {
 
     fn materials(&mut self) {
         self.text.push_str("\t<materialBDD>\n");
-        for (id, material) in self.drawn.materials.iter().enumerate() {
+        let of = self.of;
+        for (id, number) in self.used.materials.all.clone().into_iter().enumerate() {
+            let material = &of.drawn.materials[number as usize];
             let _ = write!(self.text, "\t\t<material");
             if !material.name.is_empty() {
                 let _ = write!(self.text, " name=\"{}\"", escaped(&material.name));
@@ -162,10 +174,12 @@ impl<'a> Writer<'a> {
 
     fn shapes(&mut self) {
         self.text.push_str("\t<shapeBDD>\n");
-        for (id, shape) in self.drawn.shapes.iter().enumerate() {
+        let of = self.of;
+        for (id, number) in self.used.shapes.all.clone().into_iter().enumerate() {
+            let shape = &of.drawn.shapes[number as usize];
             let _ = writeln!(self.text, "\t\t<shape Id=\"{id}\">\n\t\t\t<name>{}</name>", escaped(&shape.name));
-            let _ = writeln!(self.text, "\t\t\t<meshIndex>{}</meshIndex>", shape.mesh);
-            if let Some(material) = shape.material {
+            let _ = writeln!(self.text, "\t\t\t<meshIndex>{}</meshIndex>", self.used.meshes.place(shape.mesh));
+            if let Some(material) = shape.material.map(|material| self.used.materials.place(material)) {
                 let _ = writeln!(self.text, "\t\t\t<materialIndex>{material}</materialIndex>");
             }
             self.text.push_str("\t\t</shape>\n");
@@ -173,19 +187,20 @@ impl<'a> Writer<'a> {
         self.text.push_str("\t</shapeBDD>\n");
     }
 
-    /// Declares the attributes: those that some entity has, and the features of the description.
-    fn attributes(&mut self, plants: &[usize]) {
-        let mut used = BTreeSet::new();
-        for plant in plants.iter().map(|plant| &self.described.individuals[*plant]) {
-            for (number, entity) in plant.entities.iter().enumerate() {
-                fields(self.described, plant, number, entity, |field, _| _ = used.insert(field));
-            }
-        }
+    /// Declares the attributes that some entity has.
+    fn attributes(&mut self) {
         self.text.push_str("\t<attributeBDD>\n");
-        for (_, name, class) in KNOWN.into_iter().filter(|(field, ..)| used.contains(field)) {
+        for (_, name, class) in KNOWN.into_iter().filter(|(field, ..)| self.used.fields.contains(field)) {
             let _ = writeln!(self.text, "\t\t<attribute name=\"{name}\" class=\"{class}\"/>");
         }
-        for (feature, name) in self.described.features.iter().zip(&self.names) {
+        let named = |feature: &u32| {
+            let name = self.of.names.get(*feature as usize)?;
+            Some((name.as_str(), self.of.described.features.get(*feature as usize)?))
+        };
+        // By name, for their numbers tell what was read first.
+        let mut features: Vec<_> = self.used.features.iter().filter_map(named).collect();
+        features.sort_unstable_by_key(|(name, _)| *name);
+        for (name, feature) in features {
             let class = match feature.kind {
                 FeatureType::Int => "Integer",
                 FeatureType::Real => "Double",
@@ -198,9 +213,8 @@ impl<'a> Writer<'a> {
     }
 
     /// Writes a plant; as the topology itself, or as a part of a scene.
-    fn plant(&mut self, plant: usize, is_topology: bool, depth: usize) -> io::Result<()> {
-        let plant = &self.described.individuals[plant];
-        let order = Order::of(plant, &self.described.classes);
+    fn plant(&mut self, plant: usize, order: &Order, is_topology: bool, depth: usize) -> io::Result<()> {
+        let plant = &self.of.described.individuals[plant];
         self.losses.add("links between entities", order.misplaced, "they stand in their wholes, or as branches");
         let mut depth = depth;
         order.each(|step| match step {
@@ -236,27 +250,33 @@ impl<'a> Writer<'a> {
     /// The beginning of an entity with what it carries.
     fn entity(&mut self, plant: &Individual, number: u32, word: &str, depth: usize) {
         let entity = &plant.entities[number as usize];
-        let kind = self.described.class_of(entity);
+        let kind = self.of.described.class_of(entity);
         self.indent(depth);
-        let symbol = escaped(class(&kind.symbol, kind.role)).into_owned();
-        let _ = writeln!(self.text, "<{word} class=\"{symbol}\" scale=\"{}\" id=\"{}\">", kind.scale, self.id);
+        let symbol = class(&kind.symbol, kind.role);
+        let _ = write!(self.text, "<{word} class=\"{}\"", escaped(symbol));
+        if role(symbol) != kind.role {
+            let _ = write!(self.text, " role=\"{}\"", super::words::word(kind.role));
+        }
+        let _ = writeln!(self.text, " scale=\"{}\" id=\"{}\">", kind.scale, self.id);
         self.id += 1;
         let start = self.text.len();
         let text = &mut self.text;
-        fields(self.described, plant, number as usize, entity, |field, value| {
+        fields(self.of.described, plant, number as usize, entity, |field, value| {
             let name = KNOWN[field as usize].1;
             let _ = write!(text, "<{name}>");
             value.push(text);
             let _ = write!(text, "</{name}>");
         });
         let seen = entity.latest();
-        for (feature, value) in seen.map_or(&[][..], |seen| &seen.values) {
+        let mut values: Vec<_> = seen.map_or(&[][..], |seen| &seen.values).iter().collect();
+        values.sort_unstable_by_key(|(feature, _)| self.of.names.get(*feature as usize));
+        for (feature, value) in values {
             self.value(*feature, value);
         }
         if self.text.len() > start {
             self.text.push('\n');
         }
-        match self.drawn.form(kind.role, entity) {
+        match self.of.drawn.form(kind.role, entity) {
             Some(form) => self.form(&form),
             None => self.placed(seen),
         }
@@ -265,7 +285,7 @@ impl<'a> Writer<'a> {
 
     /// A value of a feature; nothing where it would be read as a lack.
     fn value(&mut self, feature: u32, value: &Value) {
-        let Some(name) = self.names.get(feature as usize) else { return };
+        let Some(name) = self.of.names.get(feature as usize) else { return };
         let written = match value {
             Value::Int(number) => number.to_string(),
             Value::Real(number) if number.is_finite() => format!("{number:?}"),
@@ -280,7 +300,8 @@ impl<'a> Writer<'a> {
 
     /// The geometry of an entity that is drawn.
     fn form(&mut self, form: &Form) {
-        let _ = writeln!(self.text, "<geometry class=\"Mesh\"><shapeIndex>{}</shapeIndex><mat>", form.shape);
+        let shape = self.used.shapes.place(form.shape);
+        let _ = writeln!(self.text, "<geometry class=\"Mesh\"><shapeIndex>{shape}</shapeIndex><mat>");
         for [x, y, z, place] in form.matrix {
             self.row(&[x, y, z, place * CM]);
         }
