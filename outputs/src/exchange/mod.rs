@@ -17,6 +17,8 @@ mod opf;
 mod ops;
 mod qsm;
 mod report;
+#[cfg(test)]
+mod tests;
 mod text;
 mod vectors;
 mod xml;
