@@ -7,6 +7,7 @@
 
 mod contract;
 mod description;
+pub mod grown;
 mod losses;
 mod mtg;
 mod report;
