@@ -49,6 +49,8 @@ struct Reader<'r> {
     units: Units,
     ranged: u64,
     entities: usize,
+    /// Whether any code was read.
+    begun: bool,
     report: &'r mut Report,
 }
 
@@ -69,6 +71,7 @@ pub fn read(incoming: &Incoming<'_>, report: &mut Report) -> Description {
         units,
         ranged: 0,
         entities: 0,
+        begun: false,
         report,
     };
     reader.lines(&text);
@@ -254,6 +257,7 @@ impl Reader<'_> {
                 }
             }
         }
+        self.begun = true;
         self.above.push(here);
         let Here::At(plant, last) = here else { return };
         if let Some(alias) = &row.alias {
@@ -312,7 +316,7 @@ impl Reader<'_> {
             return Here::Lost;
         };
         let Some(class) = self.header.class(symbol) else {
-            if here == Here::Nowhere && self.entities == 0 && first_column && last && !symbol.is_empty() {
+            if here == Here::Nowhere && !self.begun && first_column && last && !symbol.is_empty() {
                 let told = format!(
                     "the root `{}` is of no declared class: it stands for the file and is left out",
                     said(label)
