@@ -9,6 +9,7 @@ mod contract;
 mod cursor;
 mod description;
 mod drawn;
+pub mod grown;
 mod losses;
 mod mtg;
 mod numbers;

@@ -59,7 +59,40 @@ impl Section {
 
 /// A cell without its comment, which goes from `#` to the next tab, and without spaces around it.
 pub fn cell(text: &str) -> &str {
+    // Most cells are plain.
+    let is_plain = |byte: u8| byte.is_ascii_graphic() && byte != b'#' && byte != b'"';
+    if text.bytes().all(is_plain) {
+        return text;
+    }
     text.split('#').next().unwrap_or_default().trim_matches([' ', '\r', '\u{a0}', '"'])
+}
+
+/// The cells of a line, up to the tabs between them.
+#[derive(Debug, Clone)]
+pub struct Cells<'l>(Option<&'l str>);
+
+impl<'l> Cells<'l> {
+    /// All cells of a line.
+    pub fn of(line: &'l str) -> Self {
+        Self(Some(line))
+    }
+}
+
+impl<'l> Iterator for Cells<'l> {
+    type Item = &'l str;
+
+    #[inline]
+    fn next(&mut self) -> Option<&'l str> {
+        let rest = self.0?;
+        // Cells are short, so looking at each byte is faster than searching.
+        match rest.bytes().position(|byte| byte == b'\t') {
+            Some(tab) => {
+                self.0 = Some(&rest[tab + 1..]);
+                Some(&rest[..tab])
+            }
+            None => self.0.take(),
+        }
+    }
 }
 
 /// The column of a part of a line, from 1, in characters.
@@ -86,7 +119,7 @@ impl Header {
 
     /// Reads a line of CODE.
     pub fn code(&self, (number, line): (usize, &str), said_there: &str, report: &mut Report) {
-        let words = line.split('\t').map(cell);
+        let words = Cells::of(line).map(cell);
         let form = Some(said_there).filter(|form| !form.is_empty());
         let form = form.or_else(|| words.skip(1).find(|word| !word.is_empty()));
         match form {
@@ -102,7 +135,7 @@ impl Header {
 
     /// Reads a line of CLASSES: a symbol and its scale.
     pub fn class_line(&mut self, (number, line): (usize, &str), report: &mut Report) {
-        let mut cells = line.split('\t');
+        let mut cells = Cells::of(line);
         let (symbol, scale_cell) = (cell(cells.next().unwrap_or_default()), cells.next().unwrap_or_default());
         if symbol.is_empty() || symbol.eq_ignore_ascii_case("SYMBOL") || symbol == "$" {
             return;
@@ -134,7 +167,7 @@ impl Header {
 
     /// Reads a line of FEATURES: a name and its type.
     pub fn feature_line(&mut self, (number, line): (usize, &str), report: &mut Report) {
-        let mut cells = line.split('\t').map(cell);
+        let mut cells = Cells::of(line).map(cell);
         let name = cells.next().unwrap_or_default();
         let kind = cells.find(|cell| !cell.is_empty()).unwrap_or_default();
         if name.is_empty() || (name.eq_ignore_ascii_case("NAME") && kind.eq_ignore_ascii_case("TYPE")) {
@@ -184,7 +217,7 @@ impl Columns {
         place: &mut dyn FnMut(&str, FeatureType) -> u32,
         report: &mut Report,
     ) -> Self {
-        let cells: Vec<&str> = line.split('\t').map(cell).collect();
+        let cells: Vec<&str> = Cells::of(line).map(cell).collect();
         let codes = cells.iter().skip(1).position(|cell| !cell.is_empty()).map(|first| first + 1);
         let Some(codes) = codes else { return Self { codes: usize::MAX, features: Vec::new() } };
         if cells.len() - codes > MOST_NAMES {

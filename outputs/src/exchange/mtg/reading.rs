@@ -5,7 +5,7 @@
 //! needs no rule of its own. A root that is not declared stands for the file and is left out.
 
 use super::code::{self, From, Labelled, Sign, symbol_and_index};
-use super::header::{Columns, Header, Section, cell, column};
+use super::header::{Cells, Columns, Header, Section, cell, column};
 use super::names::{MARK, Meaning, role};
 use super::values::Cell;
 use crate::exchange::contract::{Incoming, MOST_ENTITIES, Units};
@@ -49,6 +49,8 @@ struct Reader<'r> {
     units: Units,
     ranged: u64,
     entities: usize,
+    /// Whether any code was read.
+    begun: bool,
     report: &'r mut Report,
 }
 
@@ -69,6 +71,7 @@ pub fn read(incoming: &Incoming<'_>, report: &mut Report) -> Description {
         units,
         ranged: 0,
         entities: 0,
+        begun: false,
         report,
     };
     reader.lines(&text);
@@ -89,7 +92,7 @@ impl Reader<'_> {
         let (mut section, mut named) = (Section::None, false);
         for (place, line) in text.split('\n').enumerate() {
             let line = (place + 1, line.strip_suffix('\r').unwrap_or(line));
-            let first = cell(line.1.split('\t').next().unwrap_or_default());
+            let first = cell(Cells::of(line.1).next().unwrap_or_default());
             if let Some((begun, rest)) = Section::begun_by(first).filter(|_| section != Section::Mtg) {
                 section = begun;
                 self.header.begin(begun);
@@ -126,8 +129,8 @@ impl Reader<'_> {
 
     /// Reads the line of names; whether it was there.
     fn names(&mut self, line: (usize, &str)) -> bool {
-        let first = cell(line.1.split('\t').next().unwrap_or_default());
-        if first.is_empty() && line.1.split('\t').all(|text| cell(text).is_empty()) {
+        let first = cell(Cells::of(line.1).next().unwrap_or_default());
+        if first.is_empty() && Cells::of(line.1).all(|text| cell(text).is_empty()) {
             return false;
         }
         if !["ENTITY-CODE", "TOPO"].iter().any(|word| first.eq_ignore_ascii_case(word)) {
@@ -158,49 +161,32 @@ impl Reader<'_> {
 
     /// Reads a line of an entity, or of another observation of one.
     fn row(&mut self, (number, line): (usize, &str)) {
-        let mut rest = line;
+        let mut cells = Cells::of(line);
         let (mut at, mut code) = (0, "");
         // The code is the first cell that is not empty; the cells of features begin after all columns of codes.
-        while at < self.columns.codes {
-            let (head, tail) = rest.split_once('\t').unwrap_or((rest, ""));
-            let found = cell(head);
-            let ends = head.len() == rest.len();
-            rest = tail;
-            if !found.is_empty() {
-                code = found;
-                break;
+        for (place, text) in cells.by_ref().take(self.columns.codes).enumerate() {
+            let text = cell(text);
+            if text.is_empty() {
+                continue;
             }
-            if ends {
-                return;
+            if code.is_empty() {
+                (at, code) = (place, text);
+                continue;
             }
-            at += 1;
+            let problem = format!("a second code, `{}`, stands in the line", said(text));
+            self.report.fault((number, column(line, text)), problem, "one code a line");
         }
         if code.is_empty() {
-            if rest.split('\t').any(|text| !cell(text).is_empty()) {
+            if cells.any(|text| !cell(text).is_empty()) {
                 self.report.warn((number, 0), "values without entity", "values without an entity are left out");
             }
             return;
         }
-        for _ in at + 1..self.columns.codes.min(line.len()) {
-            let Some((head, tail)) = rest.split_once('\t') else {
-                rest = "";
-                break;
-            };
-            rest = tail;
-            let other = cell(head);
-            if !other.is_empty() {
-                let problem = format!("a second code, `{}`, stands in the line", said(other));
-                self.report.fault((number, column(line, other)), problem, "one code a line");
-            }
-        }
         if at >= MOST_COLUMNS {
-            return self.report.fault(
-                (number, 0),
-                "a code stands too far to the right",
-                format!("at most {MOST_COLUMNS} columns"),
-            );
+            let expected = format!("at most {MOST_COLUMNS} columns of codes");
+            return self.report.fault((number, 0), "a code stands too far to the right", expected);
         }
-        let values = self.observation((number, line), rest);
+        let values = self.observation((number, line), cells);
         if code == "*" {
             self.observe_again((number, line, code), at, values);
         } else {
@@ -208,30 +194,25 @@ impl Reader<'_> {
         }
     }
 
-    /// The values of a line; `None` where it has none.
-    fn observation(&mut self, (number, line): (usize, &str), cells: &str) -> sizes::Row {
+    /// The values of a line.
+    fn observation(&mut self, (number, line): (usize, &str), mut cells: Cells<'_>) -> sizes::Row {
         let mut row = sizes::Row::default();
-        let mut cells = cells.split('\t');
-        for (place, text) in cells.by_ref().take(self.columns.features.len()).enumerate() {
+        for (feature, text) in self.columns.features.iter().zip(cells.by_ref()) {
             let text = cell(text);
-            if text.is_empty() {
-                continue;
-            }
-            let Some(feature) = &self.columns.features[place] else { continue };
+            let Some(feature) = feature.as_ref().filter(|_| !text.is_empty()) else { continue };
             let value = match feature.declared.cell(text) {
                 Cell::Fits(value) => value,
                 Cell::Missing => continue,
                 Cell::Kept(value) => {
-                    let name = said(&feature.name);
-                    let told =
-                        format!("`{}` is not of the type of the feature `{name}`, and is kept as it is", said(text));
-                    self.report.warn((number, column(line, text)), &format!("type of {name}"), told);
+                    let (name, text) = (said(&feature.name), (text, said(text)));
+                    let told = format!("`{}` is not of the type of the feature `{name}`, and is kept as it is", text.1);
+                    self.report.warn((number, column(line, text.0)), &format!("type of {name}"), told);
                     value
                 }
             };
             row.take(feature.meaning, feature.feature, value, self.units);
         }
-        if self.columns.codes != usize::MAX && cells.any(|text| !cell(text).is_empty()) {
+        if cells.any(|text| !cell(text).is_empty()) {
             self.report.warn((number, 0), "values beyond", "values beyond the last named column are left out");
         }
         row
@@ -276,6 +257,7 @@ impl Reader<'_> {
                 }
             }
         }
+        self.begun = true;
         self.above.push(here);
         let Here::At(plant, last) = here else { return };
         if let Some(alias) = &row.alias {
@@ -334,7 +316,7 @@ impl Reader<'_> {
             return Here::Lost;
         };
         let Some(class) = self.header.class(symbol) else {
-            if here == Here::Nowhere && self.entities == 0 && first_column && last && !symbol.is_empty() {
+            if here == Here::Nowhere && !self.begun && first_column && last && !symbol.is_empty() {
                 let told = format!(
                     "the root `{}` is of no declared class: it stands for the file and is left out",
                     said(label)

@@ -9,7 +9,7 @@ use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 /// The head of a small file, with the features Length, Date and note.
-const HEAD: &str = "CODE :\tFORM-A\t\n\nCLASSES :\nSYMBOL\tSCALE\tDECOMPOSITION\tINDEXATION\tDEFINITION\n\
+pub const HEAD: &str = "CODE :\tFORM-A\t\n\nCLASSES :\nSYMBOL\tSCALE\tDECOMPOSITION\tINDEXATION\tDEFINITION\n\
     $\t0\tFREE\tFREE\tIMPLICIT\nP \t1\tFREE\tFREE\tEXPLICIT\nA\t2\tFREE\tFREE\tEXPLICIT\nI\t3\tFREE\tFREE\tEXPLICIT\n\n\
     DESCRIPTION :\nLEFT\tRIGHT\tRELTYPE\tMAX\n\nFEATURES:\nNAME\tTYPE\nAlias\tALPHA\nLength\tREAL\nDate\tDD/MM/YY\nnote\tALPHA\n\n\
     MTG :\n\nENTITY-CODE\t\t\tAlias\tLength\tDate\tnote\n";

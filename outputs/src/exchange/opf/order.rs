@@ -66,9 +66,9 @@ impl Order {
         };
         // The last that goes on from each entity may stand beside it, any other cannot.
         let mut last = all(NONE);
-        for (number, entity) in plant.entities.iter().enumerate() {
-            if let (Some(bearer), Some(Link::Follows)) = (entity.bearer, entity.link) {
-                last[bearer as usize] = number as u32;
+        for number in 0..entities as u32 {
+            if let Some((bearer, Link::Follows)) = springs(plant, classes, number) {
+                last[bearer as usize] = number;
             }
         }
         for number in 1..entities as u32 {
@@ -81,12 +81,11 @@ impl Order {
     fn settle(&mut self, plant: &Individual, classes: &[Class], last: &[u32], number: u32) {
         let at = number as usize;
         let entity = &plant.entities[at];
-        let scale = |number: u32| classes[plant.entities[number as usize].class as usize].scale;
-        let own = classes[entity.class as usize].scale;
-        let springs =
-            entity.bearer.zip(entity.link).filter(|(bearer, _)| whole(plant, classes, *bearer, own) == entity.complex);
-        let (around, way) = match springs {
-            Some((bearer, Link::Follows)) if scale(bearer) == own => {
+        let own = scale(plant, classes, number);
+        let from =
+            springs(plant, classes, number).filter(|(bearer, _)| whole(plant, classes, *bearer, own) == entity.complex);
+        let (around, way) = match from {
+            Some((bearer, Link::Follows)) if scale(plant, classes, bearer) == own => {
                 let before = bearer as usize;
                 let is_in_row = bearer != 0 && self.ways[before] != Way::Branch;
                 if is_in_row && last[before] == number {
@@ -159,6 +158,23 @@ impl Order {
         }
         Ok(())
     }
+}
+
+fn scale(plant: &Individual, classes: &[Class], number: u32) -> u32 {
+    classes[plant.entities[number as usize].class as usize].scale
+}
+
+/// What an entity springs from in the file, and how. What goes on from a part of a whole of its own scale, as a growth
+/// unit from the last internode of another, goes on from that whole.
+fn springs(plant: &Individual, classes: &[Class], number: u32) -> Option<(u32, Link)> {
+    let entity = &plant.entities[number as usize];
+    let (bearer, link) = entity.bearer.zip(entity.link)?;
+    let own = scale(plant, classes, number);
+    if link == Link::Branches || scale(plant, classes, bearer) <= own {
+        return Some((bearer, link));
+    }
+    let like = plant.within(bearer, |known| classes[known.class as usize].scale <= own);
+    Some((like.filter(|like| scale(plant, classes, *like) == own).unwrap_or(bearer), link))
 }
 
 /// What is to come: a step, or the entities of a list from one on.

@@ -1,7 +1,8 @@
 //! The plant of an OPF file: elements within elements, as entities with bearers and wholes.
 //!
 //! `decomp` is a part of the element around it. `branch` springs from the element around it. `follow` goes on from the
-//! `decomp` or `follow` of its scale that stands before it in the same element, else from the element around it. So
+//! `decomp` or `follow` of its scale that stands before it in the same element, else from the element around it where
+//! that is no whole of its scale. So
 //! both ways to write an axis are read: each internode within the one before, and one beside the other. Nothing
 //! recurses. Absent: what an element carries (`carried`).
 
@@ -181,7 +182,7 @@ impl Plants {
         let springs = match way {
             Way::Topology | Way::Decomp => None,
             Way::Branch => Some((outer, Link::Branches)),
-            Way::Follow => before.or((outer_scale == scale).then_some(outer)).map(|bearer| (bearer, Link::Follows)),
+            Way::Follow => before.or((outer_scale >= scale).then_some(outer)).map(|bearer| (bearer, Link::Follows)),
         };
         if way == Way::Follow && springs.is_none() {
             report.warn(place, "follow", "`<follow>` has nothing of its scale before it: read as a first part");
