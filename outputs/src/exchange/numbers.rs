@@ -20,11 +20,48 @@ pub fn is_lacking(word: &str) -> bool {
 ///
 /// What is read again and written again has the same characters, also where a factor went to and fro in between.
 pub fn push(out: &mut String, number: f64, places: usize) {
-    use std::fmt::Write;
-    if number.fract() == 0.0 && number.abs() < 1e15 {
-        let _ = write!(out, "{}", number as i64);
-        return;
+    let units = (number * POWERS[places.min(POWERS.len() - 1)]).round();
+    // So far from the limits of double precision, the whole number of units is the nearest one.
+    if units.abs() < 1e14 && places < POWERS.len() {
+        return push_units(out, units as i64, places);
     }
+    push_slowly(out, number, places);
+}
+
+/// Powers of ten.
+const POWERS: [f64; 13] = [1.0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12];
+
+/// Adds a number of units of its last place.
+fn push_units(out: &mut String, units: i64, mut places: usize) {
+    let mut left = units.unsigned_abs();
+    while places > 0 && left.is_multiple_of(10) {
+        left /= 10;
+        places -= 1;
+    }
+    // From the last digit to the first: at most fourteen, or a zero and all places, with a point and a sign.
+    let mut digits = [b'0'; 20];
+    let mut start = digits.len();
+    let mut count = 0;
+    while left > 0 || count <= places {
+        if count == places && places > 0 {
+            start -= 1;
+            digits[start] = b'.';
+        }
+        start -= 1;
+        digits[start] = b'0' + (left % 10) as u8;
+        left /= 10;
+        count += 1;
+    }
+    if units < 0 {
+        start -= 1;
+        digits[start] = b'-';
+    }
+    out.push_str(std::str::from_utf8(&digits[start..]).unwrap_or("0"));
+}
+
+/// The same for any number.
+fn push_slowly(out: &mut String, number: f64, places: usize) {
+    use std::fmt::Write;
     let start = out.len();
     let _ = if number.is_finite() { write!(out, "{number:.places$}") } else { write!(out, "0") };
     if out[start..].contains('.') {
@@ -60,6 +97,15 @@ mod tests {
             [text(-3.0, 6), text(0.1 + 0.2, 9), text(1e16, 2), text(f64::NAN, 2)],
             ["-3", "0.3", "10000000000000000", "0"]
         );
+        for number in
+            [0.0, 7.0, -7.5, 0.05, 1e-9, -123_456.000_000_001, 99_999.999_999_999_9, 100.0, 0.1, 5e-10, -4e-10]
+        {
+            for places in [0, 1, 6, 9, 12] {
+                let mut slow = String::new();
+                push_slowly(&mut slow, number, places);
+                assert_eq!(text(number, places), slow, "{number} {places}");
+            }
+        }
         // A file in centimetres and a description in metres.
         for k in 1..2000 {
             let metres = f64::from(k) * 0.000_123_456_7;

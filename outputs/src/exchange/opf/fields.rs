@@ -7,7 +7,7 @@ use super::super::numbers::{is_lacking, push};
 use super::super::xml::escaped;
 use super::parts::CM;
 use super::words::{Known, is_structure, known};
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
 
 /// Places behind the point of numbers of geometry: 10⁻⁹ cm.
@@ -70,15 +70,22 @@ pub(super) fn fields<'a>(
 
 /// A name of an attribute for each feature: its own where it may be the name of an element, else one like it.
 pub(super) fn names(described: &Description, losses: &mut Losses) -> Vec<String> {
-    let mut taken = BTreeSet::new();
+    let (mut taken, mut numbers) = (BTreeSet::new(), BTreeMap::new());
     let mut made = Vec::with_capacity(described.features.len());
     for feature in &described.features {
         let mut name: String = feature.name.chars().take(150).map(|c| if is_of_name(c) { c } else { '_' }).collect();
         if !name.starts_with(|c: char| c.is_alphabetic() || c == '_') {
             name.insert(0, '_');
         }
-        while is_structure(&name) || known(&name).is_some() || taken.contains(&name) {
+        if is_structure(&name) || known(&name).is_some() {
             name.push('_');
+        }
+        let plain = name.clone();
+        // Numbers go on from the last, so that many like names take no longer than others.
+        while taken.contains(&name) {
+            let next = numbers.entry(plain.clone()).or_insert(1_u32);
+            *next += 1;
+            name = format!("{plain}_{next}");
         }
         losses.add("names of features that no attribute can have", u64::from(name != feature.name), "similar names");
         taken.insert(name.clone());

@@ -152,7 +152,7 @@ fn names_that_no_element_can_have_are_changed_and_told() {
     assert_eq!(losses, ["lost: names of features that no attribute can have (5): similar names"]);
     let found = plants("opf", &text(&out));
     let names: Vec<&str> = found.features.iter().map(|feature| feature.name.as_str()).collect();
-    assert_eq!(names, ["Length_", "Vigour", "_9th", "geometry_", "two_words", "two_words_"]);
+    assert_eq!(names, ["Length_", "Vigour", "_9th", "geometry_", "two_words", "two_words_2"]);
     let values = &found.individuals[0].entities[1].latest().unwrap().values;
     assert_eq!(values[2].1, Value::Text("<9th> & \"more\"".into()));
     assert_eq!(written("opf", &found).0, out);
