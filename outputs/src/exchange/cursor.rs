@@ -17,8 +17,8 @@ impl<'a> Cursor<'a> {
         Self { text, byte: 0, line: 1, column: 1 }
     }
 
-    /// Line and column of a byte, both from 1; the column in characters. In time of the bytes since the place before, or
-    /// from the beginning where it lies farther back.
+    /// Line and column of a byte, both from 1; the column in characters. In time of the bytes since the place before,
+    /// or from the beginning where it lies farther back.
     pub fn place(&mut self, byte: usize) -> (usize, usize) {
         let byte = self.text.floor_char_boundary(byte);
         if byte < self.byte {

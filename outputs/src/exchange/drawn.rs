@@ -1,8 +1,8 @@
 //! How entities are drawn: by the shapes that they bring along, else by a shape for each role, put where they are.
 //!
-//! Wood is a cylinder of unit length and width along x, organs are forms of the library of `phytomer_meshes`, whose length
-//! and width are 1 as well. An entity without a place, a direction, a length and a width has no shape, since its file
-//! does not tell what it looks like. Absent: how formats write it.
+//! Wood is a cylinder of unit length and width along x, organs are forms of the library of `phytomer_meshes`, whose
+//! length and width are 1 as well. An entity without a place, a direction, a length and a width has no shape, since
+//! its file does not tell what it looks like. Absent: how formats write it.
 
 use super::description::{Description, Entity, Form, Material, Mesh, Role, Shape};
 use super::vectors::{frame, upward};

@@ -110,8 +110,8 @@ impl Materials {
     }
 }
 
-/// Which lists a file has beside that of places. Some readers want them as long as that: texture coordinates are written
-/// for all vertices where some mesh has them, normals where every mesh has them.
+/// Which lists a file has beside that of places. Some readers want them as long as that: texture coordinates are
+/// written for all vertices where some mesh has them, normals where every mesh has them.
 struct Lists {
     has_texture: bool,
     has_normals: bool,

@@ -1,10 +1,10 @@
 //! Scenes of AMAPstudio and Archimed (`.ops`): plants of a plot, each a row with the OPF file that it is in and how it
 //! stands.
 //!
-//! A row is scene, plant, file, x, y, z, scale, the azimuth of the lean, the lean and the turn about its own axis: metres
-//! and radians. Older files have no scale. `#[Archimed] word` tells the functional group of the rows below, which is
-//! read as the species of plants whose own file tells none. Written are an OPF file a plant, beside the scene. Absent:
-//! chains of scenes, and what is no plant, which are passed over with a warning.
+//! A row is scene, plant, file, x, y, z, scale, the azimuth of the lean, the lean and the turn about its own axis:
+//! metres and radians. Older files have no scale. `#[Archimed] word` tells the functional group of the rows below,
+//! which is read as the species of plants whose own file tells none. Written are an OPF file a plant, beside the
+//! scene. Absent: chains of scenes, and what is no plant, which are passed over with a warning.
 
 use super::contract::{Format, Incoming, MOST_ENTITIES, Outgoing};
 use super::description::{Description, Individual, Standing};

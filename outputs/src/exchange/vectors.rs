@@ -5,8 +5,8 @@ pub fn norm(of: [f64; 3]) -> f64 {
     (of[0] * of[0] + of[1] * of[1] + of[2] * of[2]).sqrt()
 }
 
-/// A vector of length 1, as it is where it has that length but for rounding, so that what is written stays as it was read;
-/// `None` for one of no length.
+/// A vector of length 1, as it is where it has that length but for rounding, so that what is written stays as it was
+/// read; `None` for one of no length.
 pub fn unit(of: [f64; 3]) -> Option<[f64; 3]> {
     let length = norm(of);
     if (length - 1.0).abs() < 1e-6 {

@@ -1,8 +1,8 @@
 //! From the bytes of a file to a description: line by line, with what stands above in each column.
 //!
-//! The entity of a code springs from the entity before it in the code or above it in its column, the finest that the file
-//! names there; the complex that it belongs to is the nearest whole of a coarser scale around that. So a leap of scales
-//! needs no rule of its own. A root that is not declared stands for the file and is left out.
+//! The entity of a code springs from the entity before it in the code or above it in its column, the finest that the
+//! file names there; the complex that it belongs to is the nearest whole of a coarser scale around that. So a leap of
+//! scales needs no rule of its own. A root that is not declared stands for the file and is left out.
 
 use super::code::{self, From, Labelled, Sign, symbol_and_index};
 use super::header::{Cells, Columns, Header, Section, cell, column};

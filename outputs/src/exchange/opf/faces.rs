@@ -70,7 +70,7 @@ impl Faces {
             let problem = format!("a face names point {corner} of a mesh with {points} points");
             report.fault(place, problem, format!("a whole number below {points}"));
         }
-        if self.loose.len() % 3 != 0 {
+        if !self.loose.len().is_multiple_of(3) {
             let problem = format!("{} corners outside of `<face>` are no triangles", self.loose.len());
             report.fault(self.end, problem, "a multiple of three");
         }

@@ -39,7 +39,8 @@ impl Written<'_> {
     }
 }
 
-/// The fields that an entity has a value for, in the order of [`KNOWN`]; what is told of the plant stands with its first.
+/// The fields that an entity has a value for, in the order of [`KNOWN`]; what is told of the plant stands with its
+/// first.
 pub(super) fn fields<'a>(
     described: &Description,
     plant: &'a Individual,

@@ -1,9 +1,9 @@
 //! The Open Plant Format 2.0 (`.opf`) of Xplo, Archimed and PlantGeom.jl: XML with reference meshes, and a plant whose
 //! entities have a matrix each.
 //!
-//! Read: parts in any order, any of them missing; `follow` within its predecessor and beside it; `NA`. Written: `follow`
-//! beside, so that long axes do not nest; what the format has no word for as attributes (`words`). Absent: how plants
-//! stand in a plot, which scenes hold (`ops`).
+//! Read: parts in any order, any of them missing; `follow` within its predecessor and beside it; `NA`. Written:
+//! `follow` beside, so that long axes do not nest; what the format has no word for as attributes (`words`). Absent:
+//! how plants stand in a plot, which scenes hold (`ops`).
 
 mod carried;
 mod faces;

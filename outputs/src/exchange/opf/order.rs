@@ -1,9 +1,9 @@
 //! The order in which the entities of a plant stand in an OPF file, and in which element.
 //!
-//! Parts and what springs from an entity stand in its element; what goes on from an entity stands beside it, as often as
-//! the file then reads the same. First in an element comes what goes on from it and cannot stand beside it, then its
-//! parts, each with all that goes on from it, then its branches. An entity without a way to say where it belongs stands
-//! in its whole.
+//! Parts and what springs from an entity stand in its element; what goes on from an entity stands beside it, as often
+//! as the file then reads the same. First in an element comes what goes on from it and cannot stand beside it, then
+//! its parts, each with all that goes on from it, then its branches. An entity without a way to say where it belongs
+//! stands in its whole.
 
 use super::super::description::{Class, Individual, Link};
 use super::topology::whole;

@@ -285,7 +285,7 @@ pub(super) fn whole(xml: &mut Xml<'_>, report: &mut Report, name: &str) -> Optio
 
 fn in_threes(xml: &mut Xml<'_>, report: &mut Report, unit: f64) -> Vec<[f64; 3]> {
     let found = numbers(xml, report);
-    if found.len() % 3 != 0 {
+    if !found.len().is_multiple_of(3) {
         let place = xml.here();
         report.fault(place, format!("{} numbers are no points", found.len()), "three numbers a point");
     }

@@ -1,5 +1,5 @@
-//! What the plants of a written OPF file need of all that a description has: shapes with their meshes and materials, and
-//! attributes, in an order that the plants alone tell.
+//! What the plants of a written OPF file need of all that a description has: shapes with their meshes and materials,
+//! and attributes, in an order that the plants alone tell.
 //!
 //! So a plant has the same file whatever stands beside it in a scene, and a file that is read is written as it was.
 

@@ -1,9 +1,9 @@
 //! OPF files, written: what a description holds, in centimetres.
 //!
 //! Numbers are rounded to so many places that a file which is read and written again has the same bytes. `Length`,
-//! `Width` and `Area` are attributes beside the geometry, since most readers ask for them there. PlantGeom.jl takes an end
-//! whose width is exactly 1 for an entity that is not tapered, so such a width is written a little larger. Absent: the
-//! order of elements (`order`), and the forms of entities without one (`drawn`).
+//! `Width` and `Area` are attributes beside the geometry, since most readers ask for them there. PlantGeom.jl takes
+//! an end whose width is exactly 1 for an entity that is not tapered, so such a width is written a little larger.
+//! Absent: the order of elements (`order`), and the forms of entities without one (`drawn`).
 
 use super::super::description::{Description, Entity, FeatureType, Form, Individual, Mesh, Observation, Value};
 use super::super::drawn::Drawn;

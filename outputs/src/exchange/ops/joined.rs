@@ -1,4 +1,5 @@
-//! Descriptions that are joined to one: classes, features, meshes, materials and shapes that are equal stand in it once.
+//! Descriptions that are joined to one: classes, features, meshes, materials and shapes that are equal stand in it
+//! once.
 
 use super::super::description::{Class, Description, Feature, FeatureType, Individual};
 use std::collections::BTreeMap;

@@ -1,9 +1,9 @@
 //! Quantitative structure models: trees as cylinders, one a row, as laser scans are turned into.
 //!
-//! Three kinds of files. TreeQSM writes text of 15 or 17 columns, where the number of a row is that of its cylinder and
-//! the parent 0 is none; aRchi reads the 15 without a header, Helios and TreeQSM itself the 17 with one. rTwig and aRchi
-//! have tables with names (`startX` … `branching_order`), as has SimpleForest, where the parent −1 is none. All of
-//! them hold wood alone. Order 0 is the trunk. Absent: what cylinders are in a description (`tree`, `rows`).
+//! Three kinds of files. TreeQSM writes text of 15 or 17 columns, where the number of a row is that of its cylinder
+//! and the parent 0 is none; aRchi reads the 15 without a header, Helios and TreeQSM itself the 17 with one. rTwig
+//! and aRchi have tables with names (`startX` … `branching_order`), as has SimpleForest, where the parent −1 is none.
+//! All of them hold wood alone. Order 0 is the trunk. Absent: what cylinders are in a description (`tree`, `rows`).
 
 mod rows;
 mod table;

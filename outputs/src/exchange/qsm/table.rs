@@ -191,8 +191,8 @@ fn separator(line: &str) -> char {
     [',', ';', '\t'].into_iter().max_by_key(|separator| (count(*separator), *separator == ',')).unwrap_or(',')
 }
 
-/// The cells of a line without the blanks and quotes around them, each with its column from 1. A separator in quotes is a
-/// part of its cell.
+/// The cells of a line without the blanks and quotes around them, each with its column from 1. A separator in quotes
+/// is a part of its cell.
 fn cells(line: &str, separator: char) -> Vec<(String, usize)> {
     let mut found = vec![(String::new(), 1)];
     let mut is_quoted = false;

@@ -1,9 +1,10 @@
 //! TreeQSM text: a cylinder a row, with 15 or 17 numbers, whose meaning their place tells.
 //!
-//! First come radius, length, start, direction, parent and extension in any of them. Then 17 columns go on with branch,
-//! order, position, deviation, coverage, added, unmodified radius; 15 as aRchi has them with added, unmodified radius,
-//! branch, order, position; 15 as older TreeQSM wrote them with branch, order, position, added, unmodified radius. Which
-//! of the two a file of 15 has is seen from its whole numbers. Absent: what the tree is (`tree`).
+//! First come radius, length, start, direction, parent and extension in any of them. Then 17 columns go on with
+//! branch, order, position, deviation, coverage, added, unmodified radius; 15 as aRchi has them with added,
+//! unmodified radius, branch, order, position; 15 as older TreeQSM wrote them with branch, order, position, added,
+//! unmodified radius. Which of the two a file of 15 has is seen from its whole numbers. Absent: what the tree is
+//! (`tree`).
 
 use super::super::contract::MOST_ENTITIES;
 use super::super::numbers::{number, words};
@@ -38,12 +39,11 @@ pub(super) fn is_like(bytes: &[u8]) -> bool {
     let start = String::from_utf8_lossy(&bytes[..bytes.len().min(4000)]).into_owned();
     let mut lines = start.lines().filter(|line| !line.trim().is_empty());
     let Some(first) = lines.next() else { return false };
-    let is_row = |line: &str| matches!(line.split_ascii_whitespace().map(number).collect(), Some(row) if is_wide(&row));
+    let is_row = |line: &str| {
+        let row: Option<Vec<f64>> = line.split_ascii_whitespace().map(number).collect();
+        row.is_some_and(|row| matches!(row.len(), 15 | 17))
+    };
     is_row(first) || first.trim_start().starts_with("radius") && lines.next().is_some_and(is_row)
-}
-
-fn is_wide(row: &Vec<f64>) -> bool {
-    matches!(row.len(), 15 | 17)
 }
 
 /// The cylinders of a text.

@@ -33,6 +33,9 @@ const WORDS: [&str; 24] = [
     "\u{0}",
 ];
 
+/// A file that is damaged: its format, its bytes, and the files beside it.
+type Seed = (&'static str, Vec<u8>, BTreeMap<String, Vec<u8>>);
+
 /// A file with some of its bytes changed, left out, doubled or put in.
 fn damaged(bytes: &[u8], numbers: &mut Numbers) -> Vec<u8> {
     let mut made = bytes.to_vec();
@@ -61,7 +64,7 @@ fn damaged(bytes: &[u8], numbers: &mut Numbers) -> Vec<u8> {
 fn damaged_files_are_read_or_refused() {
     let count: usize = std::env::var("PHYTOMER_MUTATIONS").ok().and_then(|count| count.parse().ok()).unwrap_or(400);
     let made = plant(11, 25);
-    let mut seeds: Vec<(&str, Vec<u8>, BTreeMap<String, Vec<u8>>)> = Vec::new();
+    let mut seeds: Vec<Seed> = Vec::new();
     for word in ["opf", "ops", "treeqsm", "treeqsm15", "rtwig"] {
         let (out, _) = written(word, &made);
         seeds.push((word, text(&out).into_bytes(), out.beside));

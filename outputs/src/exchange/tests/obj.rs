@@ -3,8 +3,11 @@
 use super::{text, trips, written};
 use crate::exchange::{Description, Standing};
 
+/// A triangle: its group, its material and its corners.
+type Face = (String, String, [usize; 3]);
+
 /// Vertices and triangles of a text, with the group and the material of each triangle.
-fn faces(text: &str) -> (Vec<[f64; 3]>, Vec<(String, String, [usize; 3])>) {
+fn faces(text: &str) -> (Vec<[f64; 3]>, Vec<Face>) {
     let (mut points, mut found) = (Vec::new(), Vec::new());
     let (mut group, mut material) = (String::new(), String::new());
     for line in text.lines() {

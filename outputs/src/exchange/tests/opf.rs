@@ -1,4 +1,5 @@
-//! OPF texts with all that the format leaves open: what stands where, what is missing, and how faces and axes are written.
+//! OPF texts with all that the format leaves open: what stands where, what is missing, and how faces and axes are
+//! written.
 
 use super::{plants, read, text, written};
 use crate::exchange::{Description, FeatureType, Link, Value};

@@ -32,11 +32,14 @@ fn rows(order: &str) -> String {
     TREE.iter().map(row).collect()
 }
 
+/// Role, bearer, link and whole of an entity.
+type Linked = (Role, Option<u32>, Option<Link>, Option<u32>);
+
 fn wide() -> String {
     format!("radius (m)\tlength (m)\tstart_point\taxis_direction\tparent\r\n{}", rows("pebonmcau"))
 }
 
-fn links(description: &Description) -> Vec<(Role, Option<u32>, Option<Link>, Option<u32>)> {
+fn links(description: &Description) -> Vec<Linked> {
     let entities = description.individuals[0].entities.iter();
     entities.map(|entity| (description.role_of(entity), entity.bearer, entity.link, entity.complex)).collect()
 }
