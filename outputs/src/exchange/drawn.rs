@@ -26,7 +26,7 @@ pub struct Drawn {
     pub materials: Vec<Material>,
     /// Shapes, likewise.
     pub shapes: Vec<Shape>,
-    /// Of each mesh whether widths taper it: all but those that some entity is drawn with without any.
+    /// Of each mesh whether widths taper it: all but those that entities are drawn with without any.
     pub tapered: Vec<bool>,
     /// The added shape of each role.
     added: Vec<(Role, u32)>,
@@ -39,15 +39,18 @@ impl Drawn {
             meshes: description.meshes.clone(),
             materials: description.materials.clone(),
             shapes: description.shapes.clone(),
-            tapered: vec![true; description.meshes.len()],
+            tapered: Vec::new(),
             added: Vec::new(),
         };
         let entities = || description.individuals.iter().flat_map(|plant| &plant.entities);
-        for form in entities().filter_map(|entity| entity.form.as_ref()).filter(|form| form.taper.is_none()) {
+        // Whether some entity is drawn with each mesh without widths, and whether some is with them.
+        let mut ways = vec![[false; 2]; description.meshes.len()];
+        for form in entities().filter_map(|entity| entity.form.as_ref()) {
             if let Some(shape) = drawn.shapes.get(form.shape as usize) {
-                drawn.tapered[shape.mesh as usize] = false;
+                ways[shape.mesh as usize][usize::from(form.taper.is_some())] = true;
             }
         }
+        drawn.tapered = ways.into_iter().map(|way| way != [true, false]).collect();
         for role in [Role::Internode, Role::Leaf, Role::Flower, Role::Fruit] {
             let lacks = |entity: &&Entity| entity.form.is_none() && description.role_of(entity) == role;
             if entities().filter(lacks).any(|entity| placed(entity).is_some()) {

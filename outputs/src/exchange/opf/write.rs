@@ -306,14 +306,13 @@ impl Writer<'_> {
             self.row(&[x, y, z, place * CM]);
         }
         self.text.push_str("</mat>");
-        if let Some([down, up]) = form.taper {
-            let (mut down, mut up) = (width(down), width(up));
-            if (down == "1") != (up == "1") {
-                let one = if down == "1" { &mut down } else { &mut up };
-                *one = "1.0000000001".to_owned();
-            }
-            let _ = write!(self.text, "<dUp>{up}</dUp><dDwn>{down}</dDwn>");
+        // Readers ask for widths of what is not tapered too.
+        let [mut down, mut up] = form.taper.unwrap_or([1.0; 2]).map(width);
+        if (down == "1") != (up == "1") {
+            let one = if down == "1" { &mut down } else { &mut up };
+            *one = "1.0000000001".to_owned();
         }
+        let _ = write!(self.text, "<dUp>{up}</dUp><dDwn>{down}</dDwn>");
         self.text.push_str("</geometry>\n");
     }
 

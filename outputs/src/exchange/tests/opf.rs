@@ -100,6 +100,12 @@ fn shapes_are_found_by_their_ids_wherever_they_stand() {
     assert_eq!(leaf.latest().unwrap().length, Some(0.005));
     assert_eq!((leaf.form.as_ref().unwrap().taper, leaf.latest().unwrap().base_diameter), (None, None));
     assert_eq!(plain.meshes[plain.shapes[1].mesh as usize].triangles, [[0, 1, 2], [0, 2, 3]]);
+    // What is not tapered stays so.
+    let (out, _) = written("opf", &plain);
+    assert!(text(&out).contains("enableScale=\"false\"") && text(&out).contains("<dUp>1</dUp><dDwn>1</dDwn>"));
+    let found = plants("opf", &text(&out));
+    assert_eq!(found.individuals[0].entities[1].form.as_ref().unwrap().taper, None);
+    assert_eq!(written("opf", &found).0, out);
 }
 
 #[test]
