@@ -11,6 +11,7 @@
 pub mod cells;
 pub mod colouring;
 pub mod destination;
+pub mod exchange;
 mod frames;
 pub mod paging;
 pub mod read;

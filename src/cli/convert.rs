@@ -1,21 +1,26 @@
-//! `convert`: a tree of another program as a species.
+//! `convert`: a parametric tree of another program as a species, and plants between programs.
 //!
-//! What becomes of each key is told on stdout, or on stderr where stdout carries the species. Nothing is written where
-//! the model does not take the numbers. Absent: reading and mapping (`phytomer_peers`).
+//! What is written tells which: a species ends in `.toml`, the files of plants have endings of their own (`plants`).
+//! What becomes of each key of a species is told on stdout, or on stderr where stdout carries it. Nothing is written
+//! where the model does not take the numbers. Absent: reading and mapping (`phytomer_peers`).
+
+mod plants;
 
 use super::{Misuse, Verdict, terminal};
 use anyhow::{Context, Result};
+use clap::builder::{PossibleValue, PossibleValuesParser};
 use clap::{Args, ValueEnum};
 use phytomer_config::{FaultRecord, Report, validate_texts};
 use phytomer_outputs::destination::{Destination, is_folder, is_stdout};
 use phytomer_peers::{Asked, Converted, Failed, Format, MOST_BYTES, Refused, convert};
+use phytomer_sim::Tick;
 use serde_json::{Value, json};
 use std::fmt::Write as _;
 use std::fs::File;
 use std::io::{Read, Write as _};
 use std::path::{Path, PathBuf};
 
-/// Convert a tree of another program into a species file.
+/// Convert a parametric tree of another program into a species file, and plants into files of other programs.
 #[derive(Debug, Args)]
 #[command(after_help = "\
 Examples:
@@ -24,26 +29,74 @@ Examples:
   phytomer convert preset.txt my_tree.toml --from sapling        a file whose ending tells nothing
   phytomer convert library.xml almond.toml --tree Almond         Helios: one of the trees of a library
   phytomer convert my_tree.json my_tree.toml --json              the paper's names, or keys of tree-gen or Sapling
+  phytomer convert coffee coffee.mtg --age 48                    a plant of a scenario, a species or a run, as an MTG
 
 Python files are read as data, and nothing of them is run. Each key of the file is listed as taken, mapped or without
 counterpart, with its line and column; docs/convert.md tells how each program's keys are mapped. Exit code 3 where the
-file is wrong or the model does not take its numbers: nothing is written then.")]
+file is wrong or the model does not take its numbers: nothing is written then.
+Plants are told apart by OUT: docs/exchange.md has the formats and what each cannot hold, which is told each time.")]
 pub struct Convert {
-    /// The file of the other program.
+    /// The file of the other program; of plants also a run folder, a scenario or a species.
     #[arg(value_name = "IN")]
     input: PathBuf,
-    /// The species file that is written; `-` is stdout.
-    #[arg(value_name = "OUT.toml")]
+    /// What is written: a species (.toml), or plants by the ending of their format; `-` is stdout.
+    #[arg(value_name = "OUT")]
     out: PathBuf,
-    /// Whose file it is, where its ending and its keys do not tell.
-    #[arg(long, value_enum, value_name = "PROGRAM")]
-    from: Option<Program>,
+    /// Whose file it is, or its format, where its ending and its keys do not tell.
+    #[arg(long, value_name = "PROGRAM|FORMAT", value_parser = PossibleValuesParser::new(words_of_from()))]
+    from: Option<String>,
+    /// The format of plants that is written, where the ending of OUT does not tell.
+    #[arg(long, value_name = "FORMAT", value_parser = PossibleValuesParser::new(plants::words().map(PossibleValue::new)))]
+    to: Option<String>,
+    /// The plant of a run or a scenario, by its number from 0; 0 if not given.
+    #[arg(long, conflicts_with = "plot")]
+    plant: Option<u32>,
+    /// All plants of a plot of a run or a scenario, by its number from 0.
+    #[arg(long, value_name = "PLOT", num_args = 0..=1, default_missing_value = "0")]
+    plot: Option<u32>,
+    /// Its age in ticks, that of its prime if not given; of a plot its tick, the last if not given.
+    #[arg(long)]
+    age: Option<Tick>,
+    /// The unit of the lengths and places of a file that states none; metres if not given.
+    #[arg(long, value_enum)]
+    unit: Option<Unit>,
+    /// The unit of its diameters, where it is another.
+    #[arg(long, value_enum, requires = "unit")]
+    diameter_unit: Option<Unit>,
     /// Which tree of a file with several, by its name there.
     #[arg(long, value_name = "NAME")]
     tree: Option<String>,
     /// What became of each key, as one JSON object.
     #[arg(long)]
     json: bool,
+}
+
+/// The units of files that state none.
+#[derive(Debug, Clone, Copy, ValueEnum)]
+enum Unit {
+    M,
+    Cm,
+    Mm,
+    In,
+    Ft,
+}
+
+impl Unit {
+    fn metres(self) -> f64 {
+        match self {
+            Self::M => 1.0,
+            Self::Cm => 0.01,
+            Self::Mm => 0.001,
+            Self::In => 0.0254,
+            Self::Ft => 0.3048,
+        }
+    }
+}
+
+/// The words of `--from`: programs of parametric trees, then formats of plants.
+fn words_of_from() -> Vec<PossibleValue> {
+    let programs = Program::value_variants().iter().filter_map(ValueEnum::to_possible_value);
+    programs.chain(plants::words().map(PossibleValue::new)).collect()
 }
 
 /// The programs whose files are read.
@@ -70,10 +123,15 @@ impl From<Program> for Format {
 
 impl Convert {
     pub fn obey(self) -> Result<Verdict> {
+        if let Some(format) = plants::asked(&self)? {
+            return plants::obey(&self, format);
+        }
         self.check_out()?;
+        self.check_species()?;
         let name = self.input.display().to_string();
-        let bytes = read(&self.input)?;
-        let asked = Asked { from: self.from.map(Format::from), tree: self.tree.as_deref() };
+        let bytes = read_at_most(&self.input, MOST_BYTES)?;
+        let from = self.from.as_deref().and_then(|word| Program::from_str(word, true).ok());
+        let asked = Asked { from: from.map(Format::from), tree: self.tree.as_deref() };
         match convert(&name, &bytes, asked) {
             Ok(converted) => self.write(&name, &converted),
             Err(Failed::Refused(refused)) => self.refuse(refused),
@@ -91,7 +149,24 @@ impl Convert {
         }
         match self.out.extension() {
             Some(ending) if ending.eq_ignore_ascii_case("toml") => Ok(()),
-            _ => Err(Misuse(format!("{shown}: a species file ends in .toml"))),
+            _ => Err(Misuse(format!(
+                "{shown}: a species file ends in .toml, and files of plants in {}",
+                plants::words().map(|word| format!(".{word}")).collect::<Vec<_>>().join(", ")
+            ))),
+        }
+    }
+
+    /// Refuses what is for plants alone.
+    fn check_species(&self) -> Result<(), Misuse> {
+        let stated = [
+            ("--plant", self.plant.is_some()),
+            ("--plot", self.plot.is_some()),
+            ("--age", self.age.is_some()),
+            ("--unit", self.unit.is_some()),
+        ];
+        match stated.into_iter().find(|(_, stated)| *stated) {
+            Some((option, _)) => Err(Misuse(format!("{option}: it is for plants, and a species is asked for"))),
+            None => Ok(()),
         }
     }
 
@@ -149,10 +224,10 @@ impl Convert {
 }
 
 /// At most one byte beyond what a file may have, so that a file of any length takes little memory.
-fn read(path: &Path) -> Result<Vec<u8>> {
+fn read_at_most(path: &Path, most: usize) -> Result<Vec<u8>> {
     let mut bytes = Vec::new();
     let file = File::open(path).with_context(|| format!("cannot read {}", path.display()))?;
-    let read = file.take(MOST_BYTES as u64 + 1).read_to_end(&mut bytes);
+    let read = file.take(most as u64 + 1).read_to_end(&mut bytes);
     read.with_context(|| format!("cannot read {}", path.display()))?;
     Ok(bytes)
 }

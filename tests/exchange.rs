@@ -1,0 +1,244 @@
+//! Plants in the files of other programs: what is grown goes out and comes back the same, another reader finds in it
+//! what the tables of a run have, and bad files are refused with all that is wrong.
+//!
+//! Absent: each rule of a format, which is tested beside it (`outputs/src/exchange`).
+
+mod program;
+
+use phytomer::outputs::exchange::{Description, InMemory, Incoming, Losses, Report, Value, by_word, grown};
+use phytomer::run::regrowth::Regrowth;
+use phytomer_config::{Kind, presets, validate_species};
+use program::run;
+use std::fs;
+use std::path::Path;
+use std::process::Command;
+use tempfile::tempdir;
+
+/// The first plant of a species as it is shown, and its age.
+fn plant_of(name: &str) -> Description {
+    let species = validate_species(name, 1).unwrap_or_else(|report| panic!("{}", report.render(false)));
+    let age = species.shown_at();
+    let resolved = species.alone(name);
+    let mut description = grown::of_grown(None);
+    let told = grown::Told { name: None, species: Some(name.to_owned()), place: None };
+    Regrowth::of(&resolved)
+        .show(0, &[age], &mut |age, plant| {
+            grown::add(&mut description, plant, age, &told);
+            Ok(())
+        })
+        .unwrap_or_else(|error| panic!("{name}: {error}"));
+    description
+}
+
+fn written(description: &Description, format: &str) -> Vec<u8> {
+    let (mut out, mut losses) = (InMemory::default(), Losses::default());
+    by_word(format).unwrap().write(description, &mut out, &mut losses).unwrap();
+    out.main
+}
+
+fn read(bytes: &[u8], format: &str) -> Description {
+    let mut report = Report::new("plant");
+    let beside = |name: &str| Err(std::io::Error::other(name.to_owned()));
+    let incoming = Incoming { name: "plant", bytes, units: None, beside: &beside };
+    let description = by_word(format).unwrap().read(&incoming, &mut report);
+    assert!(
+        report.faults().is_empty() && report.warnings().is_empty(),
+        "{:?} {:?}",
+        report.faults(),
+        report.warnings()
+    );
+    description
+}
+
+/// What an MTG keeps: the lines of both in the order of the file have the same topology, ranks and ages, and places and
+/// sizes to a millionth of a metre.
+fn same(name: &str, one: &Description, other: &Description) {
+    let (one, other) = (&one.individuals[0], &other.individuals[0]);
+    assert_eq!(one.entities.len(), other.entities.len(), "{name}");
+    assert_eq!(one.age, other.age, "{name}");
+    // Entities come back in the order of the file; their numbers tell which is which.
+    let number = |entity: &phytomer::outputs::exchange::Entity| {
+        entity.latest().and_then(|seen| match seen.values.first() {
+            Some((_, Value::Int(number))) => Some(*number),
+            _ => None,
+        })
+    };
+    let mut place_of = std::collections::BTreeMap::new();
+    for (place, entity) in other.entities.iter().enumerate() {
+        number(entity).into_iter().for_each(|number| _ = place_of.insert(number, place as u32));
+    }
+    let of = |place: u32, in_other: bool| {
+        let entities = if in_other { &other.entities } else { &one.entities };
+        let entity = &entities[place as usize];
+        (entity.class, number(entity), entity.index)
+    };
+    for (place, entity) in one.entities.iter().enumerate() {
+        let Some(number) = number(entity) else { continue };
+        let back = &other.entities[place_of[&number] as usize];
+        let told = format!("{name}: entity {place}, number {number}");
+        let ages = |entity: &phytomer::outputs::exchange::Entity| {
+            (entity.birth, entity.death, entity.dead, entity.index, entity.link)
+        };
+        assert_eq!(ages(entity), ages(back), "{told}");
+        let (bearer, complex) = (entity.bearer.map(|at| of(at, false)), entity.complex.map(|at| of(at, false)));
+        assert_eq!(bearer, back.bearer.map(|at| of(at, true)), "{told}: bearer");
+        assert_eq!(complex, back.complex.map(|at| of(at, true)), "{told}: complex");
+        let (seen, again) = (entity.latest().unwrap(), back.latest().unwrap());
+        let close = |a: Option<f64>, b: Option<f64>, what: &str| {
+            let apart = a.zip(b).map_or(0.0, |(a, b)| (a - b).abs());
+            assert!(a.is_some() == b.is_some() && apart <= 1e-6, "{told}: {what} {a:?} {b:?}");
+        };
+        close(seen.length, again.length, "length");
+        close(seen.base_diameter, again.base_diameter, "diameter");
+        close(seen.tip_diameter, again.tip_diameter, "diameter at the tip");
+        close(seen.area, again.area, "area");
+        for k in 0..3 {
+            let of = |vector: Option<[f64; 3]>| vector.map(|vector| vector[k]);
+            close(of(seen.place), of(again.place), "place");
+            close(of(seen.direction), of(again.direction), "direction");
+            close(of(seen.up), of(again.up), "upper side");
+        }
+        assert_eq!(seen.values, again.values, "{told}");
+    }
+}
+
+/// The species of the round trips: trees, palms, grasses, shrubs, a geometric tree, and all architectural models.
+fn species() -> Vec<&'static str> {
+    let named = ["coffee", "fir", "oil_palm", "bamboo", "dog_rose", "gmt1/umbrella"];
+    let all = presets(Kind::Species).iter().map(|(name, _)| *name);
+    let geometric = all.clone().find(|name| name.starts_with("gmt1/"));
+    let models = all.filter(|name| name.starts_with("halle/"));
+    named[..5].iter().copied().chain(geometric).chain(models).collect()
+}
+
+#[test]
+fn a_plant_comes_back_from_an_mtg_as_it_was() {
+    let species = species();
+    assert_eq!(species.len(), 6 + 23);
+    for name in species {
+        let plant = plant_of(name);
+        assert!(plant.entities() > 10, "{name}");
+        let file = written(&plant, "mtg");
+        let back = read(&file, "mtg");
+        same(name, &plant, &back);
+        assert!(written(&back, "mtg") == file, "{name}: a second trip gives other bytes");
+    }
+}
+
+#[test]
+fn a_description_has_the_rows_of_the_run() {
+    let species = validate_species("coffee", 1).unwrap_or_else(|report| panic!("{}", report.render(false)));
+    let age = species.shown_at();
+    let folder = tempdir().unwrap();
+    run(folder.path(), &["grow", "coffee", "--plants", "1", "--quiet", "--out", "run"]).ending(0);
+    let recorded = phytomer::outputs::read::Run::open(&folder.path().join("run")).unwrap();
+    let columns = ["age", "component_id", "kind", "parent_id", "rank", "birth_age", "x_m", "z_m", "length_m"];
+    let rows = phytomer::outputs::cells::of_run(&recorded, phytomer::outputs::Table::Records, &columns).unwrap();
+    let (names, rows) = rows;
+    let at = |name: &str| names.iter().position(|known| known == name).unwrap();
+    let last: u32 = rows.iter().map(|row| row[at("age")].parse().unwrap()).max().unwrap();
+    let said = run(folder.path(), &["convert", "run", "coffee.mtg", "--age", &last.to_string()]).ending(0).stdout;
+    assert!(said.contains("1 plant"), "{said}");
+    let plant = read(&fs::read(folder.path().join("coffee.mtg")).unwrap(), "mtg");
+    let individual = &plant.individuals[0];
+    assert_eq!(individual.age, Some(last));
+    assert!(last >= age.min(last));
+    let mut entities = std::collections::BTreeMap::new();
+    for (place, entity) in individual.entities.iter().enumerate() {
+        let Some((_, Value::Int(number))) = entity.latest().and_then(|seen| seen.values.first()) else { continue };
+        if plant.class_of(entity).scale == 4 {
+            entities.insert(*number, place as u32);
+        }
+    }
+    let is_row = |row: &&Vec<String>| row[at("age")] == last.to_string() && row[at("kind")] != "apical_bud";
+    let rows: Vec<_> = rows.iter().filter(is_row).collect();
+    assert_eq!(rows.len(), entities.len());
+    for row in rows {
+        let number: i64 = row[at("component_id")].parse().unwrap();
+        let place = entities[&number];
+        let entity = &individual.entities[place as usize];
+        let seen = entity.latest().unwrap();
+        let cell = |name: &str| row[at(name)].parse::<f64>().unwrap();
+        assert_eq!(entity.birth, row[at("birth_age")].parse().ok(), "{row:?}");
+        assert!(
+            (seen.place.unwrap()[0] - cell("x_m")).abs() < 1e-6 && (seen.place.unwrap()[2] - cell("z_m")).abs() < 1e-6
+        );
+        assert!((seen.length.unwrap() - cell("length_m")).abs() < 1e-6, "{row:?}");
+        // What springs from an internode in the tables springs from it here.
+        let bearer = individual.bearer_of(place).map(|(bearer, _)| &individual.entities[bearer as usize]);
+        let bearer = bearer.and_then(|bearer| bearer.latest()?.values.first().cloned()).map(|(_, value)| value);
+        assert_eq!(bearer, row[at("parent_id")].parse().ok().map(Value::Int), "{row:?}");
+        if row[at("kind")].ends_with("internode") {
+            assert_eq!(entity.index, Some(cell("rank")), "{row:?}");
+        }
+    }
+}
+
+/// Python with the independent readers; `None` where it is not there.
+fn python() -> Option<std::path::PathBuf> {
+    let python = Path::new(env!("CARGO_MANIFEST_DIR")).join(".venv/bin/python");
+    if python.exists() {
+        return Some(python);
+    }
+    assert!(std::env::var_os("CI").is_none(), "{} is missing", python.display());
+    eprintln!("skipped: no {}", python.display());
+    None
+}
+
+#[test]
+fn another_reader_of_mtg_finds_what_was_written() {
+    let Some(python) = python() else { return };
+    let folder = tempdir().unwrap();
+    for name in ["coffee", "bamboo", "oil_palm", "halle/leeuwenberg"] {
+        let plant = plant_of(name);
+        let file = folder.path().join("plant.mtg");
+        fs::write(&file, written(&plant, "mtg")).unwrap();
+        let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/readers/mtg.py");
+        let done = Command::new(&python).arg(script).arg(&file).output().expect("python runs");
+        assert!(done.status.success(), "{name}: {}", String::from_utf8_lossy(&done.stderr));
+        let told = String::from_utf8(done.stdout).unwrap();
+        let told: Vec<serde_json::Value> = told.lines().map(|line| serde_json::from_str(line).unwrap()).collect();
+        let back = read(&fs::read(&file).unwrap(), "mtg");
+        let entities = &back.individuals[0].entities;
+        assert_eq!(told.len(), entities.len(), "{name}");
+        for (line, entity) in told.iter().zip(entities) {
+            assert_eq!(line["class"], back.class_of(entity).symbol.as_str(), "{name}");
+            assert_eq!(line["index"].as_f64(), entity.index, "{name}");
+            assert_eq!(line["bearer"].as_u64(), entity.bearer.map(u64::from), "{name}: {line}");
+            assert_eq!(line["complex"].as_u64(), entity.complex.map(u64::from), "{name}: {line}");
+            let number = |name: &str| line["values"][name].as_str().and_then(|text| text.parse::<f64>().ok());
+            let seen = entity.latest();
+            assert_eq!(number("Length"), seen.and_then(|seen| seen.length), "{name}: {line}");
+            assert_eq!(number("ZZ"), seen.and_then(|seen| seen.place).map(|place| place[2]), "{name}: {line}");
+            assert_eq!(number("birth"), entity.birth.map(f64::from), "{name}: {line}");
+        }
+    }
+}
+
+#[test]
+fn bad_files_are_refused_with_all_that_is_wrong() {
+    let folder = tempdir().unwrap();
+    let head = "CODE:\tFORM-A\nCLASSES:\nP\t1\nA\t2\nDESCRIPTION:\nFEATURES:\nMTG:\nENTITY-CODE\n";
+    fs::write(folder.path().join("bad.mtg"), format!("{head}/P1\n^/Q1\n^/A1<<A999999999\n")).unwrap();
+    let said = run(folder.path(), &["convert", "bad.mtg", "out.mtg"]).ending(3);
+    for words in ["bad.mtg:10:3: no class `Q` is declared", "one of the classes P, A", "1 fault; nothing is written"] {
+        assert!(said.stderr.contains(words), "{words} is missing in {}", said.stderr);
+    }
+    assert!(!folder.path().join("out.mtg").exists());
+    let json = run(folder.path(), &["convert", "bad.mtg", "out.mtg", "--json"]).ending(3).json();
+    assert_eq!((json["status"].as_str(), json["faults"][0]["line"].as_u64()), (Some("invalid"), Some(10)));
+    fs::write(folder.path().join("good.mtg"), format!("{head}/P1/A1<<A3\n")).unwrap();
+    let json = run(folder.path(), &["convert", "good.mtg", "out.mtg", "--json"]).ending(0).json();
+    assert_eq!((json["plants"].as_u64(), json["entities"].as_u64()), (Some(1), Some(4)));
+    for (words, told) in [
+        (
+            vec!["convert", "good.mtg", "out.mtg", "--age", "3"],
+            "--plant, --plot and --age are for plants that are grown",
+        ),
+        (vec!["convert", "good.mtg", "out.xyz"], "a species file ends in .toml"),
+        (vec!["convert", "coffee", "out.mtg", "--age", "100000"], "the run has the ages"),
+    ] {
+        let said = run(folder.path(), &words).ending(2).stderr;
+        assert!(said.contains(told), "{told} is missing in {said}");
+    }
+}
