@@ -107,7 +107,7 @@ class Verbs(unittest.TestCase):
             ph.describe("coffee", no_such_option=True)
 
     def test_docstrings_hold(self) -> None:
-        for name in ("phytomer", "phytomer._verbs", "phytomer._errors"):
+        for name in ("phytomer", "phytomer._shown", "phytomer._verbs", "phytomer._errors"):
             failed, _ = doctest.testmod(importlib.import_module(name))
             self.assertEqual(failed, 0, name)
 

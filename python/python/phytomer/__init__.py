@@ -17,6 +17,7 @@ import os
 from . import _phytomer
 from ._errors import Fault, LimitReached, ScenarioError, VerbError
 from ._phytomer import Mesh, Table, __version__
+from ._shown import Page, Picture, Plant, drawn, listed
 from ._verbs import (
     animate,
     asystem,
@@ -40,7 +41,7 @@ from ._verbs import (
 from ._verbs import mesh as write_mesh
 
 __all__ = [
-    "Fault", "LimitReached", "Mesh", "Page", "Picture", "Run", "ScenarioError", "Table", "VerbError", "__version__",
+    "Fault", "LimitReached", "Mesh", "Page", "Picture", "Plant", "Run", "ScenarioError", "Table", "VerbError", "__version__",
     "animate", "asystem", "convert", "derive", "describe", "fit", "forest", "grow", "init", "list_shipped", "measure",
     "merge", "open", "picture", "query", "report", "run_verb", "schema", "sensitivity", "shade", "validate", "verify",
     "view", "write_mesh",
@@ -193,130 +194,27 @@ def picture(
     >>> picture("coffee", age=12, size=(64, 48)).png[:4]
     b'\\x89PNG'
     """
-    asked = _listed(age)
-    until = max(asked) if asked else None
-    return _picture(_plants_of(scenario, files, until), plant, age, plot, view, size, turn, transparent, ground, caption, sun)
+    asked = listed(age)
+    plants = _plants_of(scenario, files, max(asked) if asked else None)
+    return drawn(
+        plants,
+        plant=plant,
+        age=age,
+        plot=plot,
+        view=view,
+        size=size,
+        turn=turn,
+        transparent=transparent,
+        ground=ground,
+        caption=caption,
+        sun=sun,
+    )
 
 
 def _plants_of(scenario: Scenario, files: Texts | None, until: float | None) -> _phytomer.Plants:
     if not isinstance(scenario, dict) and files is None and os.path.isfile(os.path.join(os.fspath(scenario), "run.json")):
         return _phytomer.Run.open(scenario).plants
     return _phytomer.Plants.of(*_stated(scenario, files), until)
-
-
-def _listed(numbers: Any) -> list[Any]:
-    if numbers is None:
-        return []
-    return [numbers] if isinstance(numbers, (int, float)) else list(numbers)
-
-
-def _picture(
-    plants: _phytomer.Plants,
-    plant: Any,
-    age: Any,
-    plot: int | None,
-    view: str,
-    size: Any,
-    turn: float | None,
-    transparent: bool,
-    ground: bool,
-    caption: bool,
-    sun: Any,
-) -> Picture:
-    png = plants.picture(_listed(plant), _listed(age), plot, view, size, turn, transparent, ground, caption, sun)
-    return Picture(png)
-
-
-class Picture:
-    """A PNG picture that shows itself in a notebook."""
-
-    png: bytes
-    """The bytes of the file."""
-
-    def __init__(self, png: bytes) -> None:
-        self.png = png
-
-    def __repr__(self) -> str:
-        return f"<phytomer.Picture: {len(self.png)} bytes>"
-
-    def _repr_png_(self) -> bytes:
-        return self.png
-
-    def save(self, path: str | os.PathLike[str]) -> None:
-        """Writes the PNG file."""
-        with _open(path, "wb") as file:
-            file.write(self.png)
-
-
-class Page:
-    """A page of HTML that shows the life of plants; it shows itself in a notebook and needs no network."""
-
-    html: str
-    """The page."""
-    height: int
-    """The height in a notebook, pixels."""
-
-    def __init__(self, html: str, height: int = 600) -> None:
-        self.html = html
-        self.height = height
-
-    def __repr__(self) -> str:
-        return f"<phytomer.Page: {len(self.html)} characters>"
-
-    def _repr_html_(self) -> str:
-        from html import escape
-
-        return f'<iframe srcdoc="{escape(self.html)}" style="width:100%;height:{self.height}px;border:0"></iframe>'
-
-    def save(self, path: str | os.PathLike[str]) -> None:
-        """Writes the HTML file."""
-        with _open(path, "w", encoding="utf-8") as file:
-            file.write(self.html)
-
-
-class Plant:
-    """A plant of a run, which grows again from its seed when it is drawn."""
-
-    number: int
-    """Its number in the run."""
-
-    def __init__(self, number: int, plants: _phytomer.Plants) -> None:
-        self.number = number
-        self._plants = plants
-
-    def __repr__(self) -> str:
-        return f"<phytomer.Plant {self.number}>"
-
-    def mesh(self, age: float | None = None, *, sides: int = 8, tolerance_m: float | None = None) -> Mesh:
-        """Its mesh at an age, the last of the run if not given: `points`, `faces` and `attributes` as numpy arrays.
-
-        Points are metres from its foot, Z up. `tolerance_m` simplifies its wood within this distance.
-
-        >>> grow("coffee", plants=1).plant(0).mesh(age=12).points.shape[1]
-        3
-        """
-        return self._plants.mesh(self.number, age, sides, tolerance_m)
-
-    def picture(self, age: float | Sequence[float] | None = None, **options: Any) -> Picture:
-        """Its picture, with the options of `phytomer.picture`: `run.plant(0).picture(age=48)`."""
-        return _drawn(self._plants, plant=self.number, age=age, **options)
-
-
-def _drawn(
-    plants: _phytomer.Plants,
-    *,
-    plant: Any = 0,
-    age: Any = None,
-    plot: int | None = None,
-    view: str = "perspective",
-    size: tuple[int, int] = (1600, 1200),
-    turn: float | None = None,
-    transparent: bool = False,
-    ground: bool = True,
-    caption: bool = True,
-    sun: tuple[float, float] | None = None,
-) -> Picture:
-    return _picture(plants, plant, age, plot, view, size, turn, transparent, ground, caption, sun)
 
 
 class Run:
@@ -397,7 +295,7 @@ class Run:
 
     def picture(self, **options: Any) -> Picture:
         """Plants of the run as a picture, with the options of `phytomer.picture`: `run.picture(plot=0)`."""
-        return _drawn(self._run.plants, **options)
+        return drawn(self._run.plants, **options)
 
     def show(
         self,
@@ -408,8 +306,8 @@ class Run:
         height: int = 600,
     ) -> Page:
         """The life of plants as the page of `phytomer view`; in a notebook it shows itself: `run.show(plant=0)`."""
-        listed = None if ages is None else list(ages)
-        return Page(self._run.plants.page(_listed(plant), listed, plot), height)
+        shown = None if ages is None else list(ages)
+        return Page(self._run.plants.page(listed(plant), shown, plot), height)
 
     def __repr__(self) -> str:
         return f"<phytomer.Run {self.name!r}: {', '.join(self.tables)}>"
