@@ -1,6 +1,7 @@
 //! What a format is: its word, its endings, how it is read and how it is written.
 //!
-//! A format knows bytes and no paths: what else it needs beside its file, as the plants of a scene, it asks for by name.
+//! A format knows bytes and no paths: what else it needs beside its file, as the plants of a scene, it asks for by
+//! name.
 
 use super::description::Description;
 use super::losses::Losses;
@@ -46,8 +47,8 @@ pub trait Outgoing {
     /// The name of the file, without its folder and its ending, after which files beside it are called.
     fn stem(&self) -> &str;
 
-    /// Makes one file: the one that was asked for (`None`), or one beside it with a name. `fill` is called once and writes
-    /// it; the file is whole afterwards, or not there.
+    /// Makes one file: the one that was asked for (`None`), or one beside it with a name. `fill` is called once and
+    /// writes it; the file is whole afterwards, or not there.
     ///
     /// # Errors
     /// Those of `fill` and of the system.

@@ -1,9 +1,9 @@
 //! Plants as any format sees them: entities in several scales, with what was observed of each.
 //!
-//! Lengths are metres, areas square metres, ages ticks; x is east, y north, z up, as everywhere. What a file does not say
-//! is `None` and is never made up. An entity stands after the one that it is borne by and after the one that it is a
-//! part of: readers hold to it, and writers may rely on it. So nothing recurses. An entity takes about 150 bytes, and 200
-//! more with an observation.
+//! Lengths are metres, areas square metres, ages ticks; x is east, y north, z up, as everywhere. What a file does not
+//! say is `None` and is never made up. An entity stands after the one that it is borne by and after the one that it is
+//! a part of: readers hold to it, and writers may rely on it. So nothing recurses. An entity takes about 150 bytes, and
+//! 200 more with an observation.
 
 use std::fmt;
 
@@ -42,8 +42,8 @@ pub struct Individual {
     pub entities: Vec<Entity>,
 }
 
-/// How a plant stands in a plot. Places of its entities are its own: of them the world's are had by `scale`, then a turn
-/// by `twist` about the z axis, then a tilt by `inclination` towards `azimuth`, then `place`.
+/// How a plant stands in a plot. Places of its entities are its own: of them the world's are had by `scale`, then a
+/// turn by `twist` about the z axis, then a tilt by `inclination` towards `azimuth`, then `place`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Standing {
     /// The place of its origin in the plot, m.
@@ -106,11 +106,11 @@ pub enum Link {
 pub struct Entity {
     /// Its class, a place in [`Description::classes`].
     pub class: u32,
-    /// The index after its symbol; of what this program writes it is the rank from 1: of an internode along its axis, of
-    /// an axis and of organs among their like on the internode, of a growth unit along its axis.
+    /// The index after its symbol; of what this program writes it is the rank from 1: of an internode along its axis,
+    /// of an axis and of organs among their like on the internode, of a growth unit along its axis.
     pub index: Option<f64>,
-    /// The entity that it springs from, as finely as the file tells it: an axis mostly springs from an internode. `None`
-    /// for what begins a plant, and for the first part of a complex, which springs from where that complex does
+    /// The entity that it springs from, as finely as the file tells it: an axis mostly springs from an internode.
+    /// `None` for what begins a plant, and for the first part of a complex, which springs from where that complex does
     /// ([`Individual::bearer_of`]).
     pub bearer: Option<u32>,
     /// How it springs from its bearer; `None` where it has none.
@@ -125,7 +125,8 @@ pub struct Entity {
     pub dead: Option<bool>,
     /// How it is drawn, where the format gives a reference mesh.
     pub form: Option<Box<Form>>,
-    /// What was observed of it, in the order of the dates in the file; mostly one observation, none where nothing is told.
+    /// What was observed of it, in the order of the dates in the file; mostly one observation, none where nothing is
+    /// told.
     pub observations: Vec<Observation>,
 }
 
@@ -222,8 +223,8 @@ pub struct Form {
     pub shape: u32,
     /// From the shape's own coordinates to those of the plant, row by row; the last column is the translation, m.
     pub matrix: [[f64; 4]; 3],
-    /// By how much the shape's width is enlarged at its base and at its tip (`dDwn` and `dUp` of OPF); `None` where it is
-    /// not tapered.
+    /// By how much the shape's width is enlarged at its base and at its tip (`dDwn` and `dUp` of OPF); `None` where it
+    /// is not tapered.
     pub taper: Option<[f64; 2]>,
 }
 

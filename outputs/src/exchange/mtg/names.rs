@@ -59,8 +59,8 @@ pub const TAKEN: [&str; 10] =
 /// The first words of the first line of a file of this program.
 pub const MARK: &str = "# phytomer: lengths in metres, XX YY ZZ the base of a component, ages in ticks";
 
-/// What a feature means. Directions, births and the like are ours: other files have their own meanings of such names, so
-/// they are taken for it where the file is marked alone.
+/// What a feature means. Directions, births and the like are ours: other files have their own meanings of such names,
+/// so they are taken for it where the file is marked alone.
 pub fn meaning(name: &str, marked: bool) -> Meaning {
     let lower = name.to_ascii_lowercase();
     if marked && let Some((_, _, meaning)) = WRITTEN.iter().find(|(known, ..)| known.eq_ignore_ascii_case(name)) {
