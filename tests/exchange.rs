@@ -242,3 +242,80 @@ fn bad_files_are_refused_with_all_that_is_wrong() {
         assert!(said.contains(told), "{told} is missing in {said}");
     }
 }
+
+/// Class, rank and bearer of the components of the first plant of a run, in the order of lines of text.
+fn topology(folder: &Path, stands: bool) -> Vec<String> {
+    let run = phytomer::outputs::read::Run::open(folder).unwrap();
+    let columns =
+        ["plant_id", "component_id", "kind", "order", "rank", "growth_unit", "parent_id", "birth_age", "shed_age"];
+    let (names, rows) = phytomer::outputs::cells::of_run(&run, phytomer::outputs::Table::Components, &columns).unwrap();
+    let at = |name: &str| names.iter().position(|known| known == name).unwrap();
+    let of: std::collections::BTreeMap<&str, &Vec<String>> = rows
+        .iter()
+        .filter(|row| row[at("plant_id")] == "0")
+        .map(|row| (row[at("component_id")].as_str(), row))
+        .collect();
+    let told = |row: &Vec<String>| {
+        let bearer = of.get(row[at("parent_id")].as_str());
+        let bearer = bearer.map_or(String::new(), |row| format!("{} {}", row[at("order")], row[at("rank")]));
+        let name = |name: &str| row[at(name)].as_str();
+        format!(
+            "{} {} {} {} {} on {bearer}",
+            name("kind"),
+            name("order"),
+            name("rank"),
+            name("growth_unit"),
+            name("birth_age")
+        )
+    };
+    let is_wood_or_organ =
+        |row: &&&Vec<String>| row[at("kind")] != "apical_bud" && (!stands || row[at("shed_age")].is_empty());
+    let mut lines: Vec<String> = of.values().filter(is_wood_or_organ).map(|row| told(row)).collect();
+    lines.sort();
+    lines
+}
+
+#[test]
+fn a_plant_that_comes_in_has_the_rows_of_the_one_that_went_out() {
+    let folder = tempdir().unwrap();
+    run(folder.path(), &["grow", "coffee", "--plants", "1", "--quiet", "--out", "grown"]).ending(0);
+    let until = phytomer::outputs::read::Run::open(&folder.path().join("grown")).unwrap().json()["until"].to_string();
+    run(folder.path(), &["convert", "grown", "coffee.mtg", "--age", &until]).ending(0);
+    run(folder.path(), &["convert", "coffee.mtg", "measured"]).ending(0);
+    let (grown, measured) =
+        (topology(&folder.path().join("grown"), true), topology(&folder.path().join("measured"), false));
+    assert!(grown.len() > 1000);
+    assert_eq!(grown, measured);
+    let told = run(folder.path(), &["describe", "measured", "--json"]).ending(0).json();
+    assert_eq!((told["measured"]["plants"].as_u64(), told["ages"][0]["age"].to_string()), (Some(1), until));
+    assert_eq!(told["measured"]["sha256"].as_str().map(str::len), Some(64));
+    assert!(told["architectural_models"].is_array());
+    run(folder.path(), &["describe", "measured"]).ending(0);
+    let law = |name: &str| {
+        let words = ["fit", name, "--law", "crown", "--order", "1", "--json"];
+        let said = run(folder.path(), &words);
+        (said.code, said.stdout)
+    };
+    assert_eq!(law("grown").0, law("measured").0);
+    run(folder.path(), &["picture", "measured", "--out", "measured.png", "--size", "300x300"]).ending(0);
+    assert!(fs::metadata(folder.path().join("measured.png")).unwrap().len() > 5000);
+    let said = run(folder.path(), &["mesh", "measured", "--out", "measured.ply"]).ending(2).stderr;
+    assert!(said.contains("its plants were measured (coffee.mtg)"), "{said}");
+    let again = run(folder.path(), &["convert", "coffee.mtg", "measured"]);
+    assert_ne!(again.code, Some(0), "a run is not replaced");
+}
+
+#[test]
+fn a_plant_without_places_is_told_and_not_drawn() {
+    let folder = tempdir().unwrap();
+    let text = "CODE:\tFORM-A\nCLASSES:\nP\t1\nA\t2\nS\t3\nFEATURES:\nDate\tDD/MM/YY\nMTG:\nENTITY-CODE\t\tDate\n/P1/A1/S1<<S3\t\t01/02/2003\n*\t\t03/02/2003\n";
+    fs::write(folder.path().join("bare.mtg"), text).unwrap();
+    let said = run(folder.path(), &["convert", "bare.mtg", "bare"]).ending(0).stdout;
+    assert!(said.contains("places, which the file does not tell, of plants (1)"), "{said}");
+    let said = run(folder.path(), &["picture", "bare", "--out", "bare.png"]).ending(2).stderr;
+    assert!(said.contains("plant 0 of bare has no places"), "{said}");
+    let told = run(folder.path(), &["describe", "bare"]).ending(0).stdout;
+    for words in ["2003-02-01, 2003-02-03; ages are days since the first", "cannot be drawn: 1 plant", "SHA-256"] {
+        assert!(told.contains(words), "{words} is missing in {told}");
+    }
+}

@@ -13,6 +13,7 @@ pub mod colouring;
 pub mod destination;
 pub mod exchange;
 mod frames;
+pub mod measured;
 pub mod paging;
 pub mod read;
 pub mod rows;

@@ -176,6 +176,7 @@ pub fn plan(plots: u32, plots_per_part: u32) -> RunPlan {
         precision_m: None,
         mechanics: false,
         light: false,
+        measured: false,
         calendars: vec![Calendars::default()],
         species_of_models: Vec::new(),
         members: vec![vec![OfMember { ground_area_m2: Some(6.25), guard: false }]],

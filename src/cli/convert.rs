@@ -30,6 +30,7 @@ Examples:
   phytomer convert library.xml almond.toml --tree Almond         Helios: one of the trees of a library
   phytomer convert my_tree.json my_tree.toml --json              the paper's names, or keys of tree-gen or Sapling
   phytomer convert coffee coffee.mtg --age 48                    a plant of a scenario, a species or a run, as an MTG
+  phytomer convert walnut.mtg runs/walnut --unit cm              measured plants, as the tables of a run
 
 Python files are read as data, and nothing of them is run. Each key of the file is listed as taken, mapped or without
 counterpart, with its line and column; docs/convert.md tells how each program's keys are mapped. Exit code 3 where the
@@ -39,7 +40,8 @@ pub struct Convert {
     /// The file of the other program; of plants also a run folder, a scenario or a species.
     #[arg(value_name = "IN")]
     input: PathBuf,
-    /// What is written: a species (.toml), or plants by the ending of their format; `-` is stdout.
+    /// What is written: a species (.toml), plants by the ending of their format, or without an ending a run folder with
+    /// the plants of a file; `-` is stdout.
     #[arg(value_name = "OUT")]
     out: PathBuf,
     /// Whose file it is, or its format, where its ending and its keys do not tell.
@@ -125,6 +127,9 @@ impl Convert {
     pub fn obey(self) -> Result<Verdict> {
         if let Some(format) = plants::asked(&self)? {
             return plants::obey(&self, format);
+        }
+        if let Some(format) = plants::taken(&self)? {
+            return plants::take(&self, format);
         }
         self.check_out()?;
         self.check_species()?;

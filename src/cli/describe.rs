@@ -5,6 +5,7 @@
 
 mod dates;
 mod levels;
+mod measured;
 mod run;
 mod scenario;
 mod species;
@@ -13,6 +14,7 @@ use super::named::{self, Named, Recorded};
 use super::{Verdict, bar, refuse, terminal};
 use anyhow::Result;
 use clap::Args;
+use phytomer_outputs::read::Run;
 use phytomer_outputs::{Checking, Depth, Error, State, check};
 use serde_json::Value;
 use std::path::PathBuf;
@@ -78,6 +80,12 @@ impl Describe {
                 let damaged = run::Damaged { recorded: recorded.ok(), folder, found };
                 self.tell(&damaged.as_text(), &damaged.as_json())?;
                 Ok(Verdict::Failed)
+            }
+            found if Run::open(&folder).is_ok_and(|run| measured::stated(&run).is_some()) => {
+                drop(found);
+                let (text, json) = measured::told(&Run::open(&folder)?, &folder)?;
+                self.tell(&text, &json)?;
+                Ok(Verdict::Done)
             }
             found => {
                 let held = run::Held::of(recorded?, folder, found, depth)?;

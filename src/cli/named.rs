@@ -41,6 +41,13 @@ pub fn run_folder(name: &str) -> Option<PathBuf> {
     candidates.into_iter().flatten().find(is_run)
 }
 
+/// The run folder of a name, where its plants were measured and not grown.
+pub fn measured_run(name: &str) -> Option<PathBuf> {
+    let folder = run_folder(name)?;
+    let run = Run::open(&folder).ok()?;
+    run.json()["resolved_scenario"].get("measured").is_some().then_some(folder)
+}
+
 /// Finds and checks what a name stands for.
 ///
 /// # Errors
@@ -114,6 +121,14 @@ impl Recorded {
         let run = Run::open(folder)?;
         let doing = || format!("cannot understand {}", folder.join("run.json").display());
         let resolved = &run.json()["resolved_scenario"];
+        if let Some(measured) = resolved.get("measured") {
+            let (shown, file) = (folder.display(), measured["file"].as_str().unwrap_or("a file"));
+            let told = format!(
+                "{shown}: its plants were measured ({file}) and none is grown: `describe`, `query` and `fit` work on its \
+                 tables, and `convert {file}` writes them in other formats"
+            );
+            return Err(super::Misuse(told).into());
+        }
         let scenario = Scenario::deserialize(&resolved["scenario"]).with_context(doing)?;
         let species = Species::from_json(&resolved["species"]).with_context(doing)?;
         let others = resolved["other_species"].as_array().map(Vec::as_slice).unwrap_or_default();

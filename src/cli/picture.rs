@@ -4,13 +4,15 @@
 //! With `--plot` all plants of a plot stand in their places, at each tick.
 //! Absent: drawing, which is `phytomer_outputs::pictures`'.
 
+mod measured;
+
 use super::afar::{self, Part};
 use super::colouring;
 use super::constants::Constants;
 use super::out::{self, Format};
 use super::regrown::{Breeze, Fall, Regrown, finite};
 use super::span::{Span, age, shown, span};
-use super::{Misuse, Verdict, amounts};
+use super::{Misuse, Verdict, amounts, named};
 use anyhow::{Context, Result};
 use clap::builder::PossibleValuesParser;
 use clap::{Args, ValueEnum};
@@ -144,6 +146,9 @@ pub enum From {
 impl Picture {
     pub fn obey(self) -> Result<Verdict> {
         out::check(&self.out, "picture", &FORMATS)?;
+        if let Some(folder) = named::measured_run(&self.name) {
+            return measured::obey(&self, &folder);
+        }
         let ages: Vec<Moment> = if self.ages.is_empty() { self.age.into_iter().collect() } else { self.ages.clone() };
         colouring::whole(self.age_option(), &ages, self.colour_by.as_ref())?;
         let framed = self.framed_for.map(|framed| framed.until());

@@ -57,6 +57,7 @@ pub fn plan_of(resolved: &Resolved, program: &Program) -> Result<RunPlan, RunErr
         precision_m: scenario.output.float_precision_m,
         mechanics: scenario.output.mechanics || scenario.output.light,
         light: scenario.output.light,
+        measured: false,
         calendars: trial.calendars().to_vec(),
         members: trial.treatments().iter().map(|treatment| members(&treatment.scenario)).collect(),
         species_of_models: trial.cohorts().iter().map(|cohort| cohort.species).collect(),

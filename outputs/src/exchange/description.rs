@@ -1,9 +1,9 @@
 //! Plants as any format sees them: entities in several scales, with what was observed of each.
 //!
 //! Lengths are metres, areas square metres, ages ticks; x is east, y north, z up, as everywhere. What a file does not
-//! say is `None` and is never made up. An entity stands after the one that it is borne by and after the one that it
-//! is a part of: readers hold to it, and writers may rely on it. So nothing recurses. An entity takes about 150
-//! bytes, and 200 more with an observation.
+//! say is `None` and is never made up. An entity stands after the one that it is borne by and after the one that it is
+//! a part of: readers hold to it, and writers may rely on it. So nothing recurses. An entity takes about 150 bytes, and
+//! 200 more with an observation.
 
 use std::fmt;
 
@@ -110,8 +110,8 @@ pub struct Entity {
     /// of an axis and of organs among their like on the internode, of a growth unit along its axis.
     pub index: Option<f64>,
     /// The entity that it springs from, as finely as the file tells it: an axis mostly springs from an internode.
-    /// `None` for what begins a plant, and for the first part of a complex, which springs from where that complex
-    /// does ([`Individual::bearer_of`]).
+    /// `None` for what begins a plant, and for the first part of a complex, which springs from where that complex does
+    /// ([`Individual::bearer_of`]).
     pub bearer: Option<u32>,
     /// How it springs from its bearer; `None` where it has none.
     pub link: Option<Link>,
@@ -223,8 +223,8 @@ pub struct Form {
     pub shape: u32,
     /// From the shape's own coordinates to those of the plant, row by row; the last column is the translation, m.
     pub matrix: [[f64; 4]; 3],
-    /// By how much the shape's width is enlarged at its base and at its tip (`dDwn` and `dUp` of OPF); `None` where
-    /// it is not tapered.
+    /// By how much the shape's width is enlarged at its base and at its tip (`dDwn` and `dUp` of OPF); `None` where it
+    /// is not tapered.
     pub taper: Option<[f64; 2]>,
 }
 

@@ -7,11 +7,11 @@ use super::RunFolder;
 use super::error::Error;
 use super::journal::{FileReport, OvergrownPlot, ShardReport};
 use crate::storage::durable;
-use crate::storage::space::WaitFor;
-use crate::tables::{Part, PartReport, Queue, Recording, Table, treatments};
+use crate::storage::space::{WaitFor, Watch};
+use crate::tables::{Part, PartReport, Queue, Recording, RunPlan, Table, TableError, treatments};
 use phytomer_sim::{Ending, Plot, RecordError, Recorder, Tick};
 use std::fs;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 /// A shard that is being written. It is the [`Recorder`] of each of its plots, one after another.
@@ -28,6 +28,10 @@ impl<'a> Shard<'a> {
     pub(super) fn create(folder: &'a RunFolder, shard: u32) -> Result<Self, Error> {
         let report = ShardReport { shard, files: Vec::new(), living: 0, dead: 0, components: 0, overgrown: Vec::new() };
         let mut new = Self { folder, tables: None, staged: Vec::new(), report, ended: 0 };
+        // The tables of measured plants are put into the shard whole.
+        if folder.plan.measured {
+            return Ok(new);
+        }
         let queue = Arc::new(Queue::default());
         new.tables = Some(Recording::of(&folder.plan, |table| new.part(table, &queue))?);
         Ok(new)
@@ -51,6 +55,28 @@ impl<'a> Shard<'a> {
         }
         self.staged.push(path.to_owned());
         Ok(durable::beside(&full))
+    }
+
+    /// Writes a table of measured plants: `write` makes the file at a path.
+    ///
+    /// # Errors
+    /// A failed write.
+    pub(crate) fn put(
+        &mut self,
+        table: Table,
+        write: impl FnOnce(&Path, &RunPlan, &Arc<Watch>) -> Result<PartReport, TableError>,
+    ) -> Result<(), Error> {
+        let path = part_path(table, self.report.shard);
+        let staged = self.stage(&path)?;
+        let PartReport { rows, bytes, sha256 } = write(&staged, &self.folder.plan, &self.folder.watch)?;
+        self.report.files.push(FileReport { path, table: Some(table), rows: Some(rows), bytes, sha256 });
+        Ok(())
+    }
+
+    /// Ends the plots of measured plants, which are so many and have so many components.
+    pub(crate) fn end_measured(&mut self, plants: u64, components: u64) {
+        self.ended = self.folder.plan.plots_of(self.report.shard).len() as u32;
+        (self.report.living, self.report.components) = (plants, components);
     }
 
     /// Checks the free space of the disk. Call it before writing files that do not check it themselves.

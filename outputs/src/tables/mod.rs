@@ -39,6 +39,7 @@ mod tests_mechanics;
 mod tests_plots;
 pub mod treatments;
 
+pub(crate) use buffers::{NO_DATE, NULL, Values};
 pub(crate) use component_index::ComponentIndex;
 pub(crate) use components::{ComponentColumns, ComponentRow};
 pub(crate) use encode::Queue;
@@ -55,12 +56,14 @@ pub(crate) use recording::Recording;
 pub(crate) use records::{PlantAtAge, RecordColumns, RecordRow};
 pub use sample::{Sample, Stated};
 pub(crate) use single::{each_record, light_values, record_values};
+pub(crate) use sink::Sink;
 pub(crate) use site::{Group, SiteColumns};
 pub use summary::Summary;
 pub(crate) use summary::{SummaryColumns, summarise};
 
 use schema::Column;
 use serde::{Deserialize, Serialize};
+use std::sync::LazyLock;
 
 /// Rows in a row group.
 pub const ROW_GROUP: usize = 122_880;
@@ -131,6 +134,15 @@ impl Table {
             Self::Treatments => &columns::TREATMENTS,
             Self::Site => &columns::SITE,
         }
+    }
+
+    /// Its columns where the plants were measured: those of every run, any of which may be null.
+    pub fn columns_of_measured(self) -> &'static [Column] {
+        static COLUMNS: LazyLock<[Vec<Column>; Table::ALL.len()]> = LazyLock::new(|| {
+            let nullable = |column: &Column| Column { nullable: true, ..*column };
+            Table::ALL.map(|table| table.columns(false).iter().map(nullable).collect())
+        });
+        &COLUMNS[self as usize]
     }
 
     /// Its columns in a run with those of light; such a run has the columns of mechanics too.

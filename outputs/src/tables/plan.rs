@@ -35,6 +35,8 @@ pub struct RunPlan {
     pub mechanics: bool,
     /// Whether `records`, `summary` and `site` have the columns of light; `mechanics` is then true.
     pub light: bool,
+    /// Whether the plants were measured and not grown: any column may then be null.
+    pub measured: bool,
     /// The calendars of the plots of each treatment, in the order of the treatments.
     pub calendars: Vec<Calendars>,
     /// The species of each model, as an index into [`Provenance::species`]; a species is its own model beyond the list.
@@ -114,6 +116,9 @@ impl RunPlan {
 
     /// The columns of a table in this run.
     pub fn columns(&self, table: Table) -> &'static [Column] {
+        if self.measured {
+            return table.columns_of_measured();
+        }
         let has_guards = || self.members.iter().flatten().any(|member| member.guard);
         if table == Table::Plants && has_guards() {
             return &columns::PLANTS;

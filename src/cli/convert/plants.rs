@@ -8,13 +8,17 @@ use super::super::regrown::{Breeze, Regrown};
 use super::super::{Misuse, Verdict, amounts, named, terminal};
 use super::{Convert, read_at_most};
 use anyhow::{Context, Result};
+use phytomer::run::Program;
 use phytomer_outputs::destination::{Destination, is_stdout};
 use phytomer_outputs::exchange::{
     Description, FORMATS, Format, Incoming, Losses, MOST_BYTES, Outgoing, Report, Units, by_ending, by_word, grown,
 };
+use phytomer_outputs::measured::{self, Source};
+use phytomer_outputs::{Input, Mode};
 use phytomer_sim::Tick;
 use phytomer_sim::between::Moment;
 use serde_json::{Value, json};
+use sha2::{Digest, Sha256};
 use std::ffi::OsStr;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -53,6 +57,48 @@ pub fn asked(convert: &Convert) -> Result<Option<&'static dyn Format>, Misuse> {
     }
 }
 
+/// The format of a file whose plants are to become a run folder, which has no ending; `None` where something else is
+/// meant.
+///
+/// # Errors
+/// As [`asked`] of a file.
+pub fn taken(convert: &Convert) -> Result<Option<&'static dyn Format>> {
+    if convert.out.extension().is_some() || is_stdout(&convert.out) {
+        return Ok(None);
+    }
+    incoming(convert)
+}
+
+/// Makes a run folder of the plants of a file.
+pub fn take(convert: &Convert, format: &'static dyn Format) -> Result<Verdict> {
+    let name = convert.input.display().to_string();
+    let read = of_file(convert, &name, format)?;
+    if read.report.is_refused() {
+        return refuse(convert, &read.report);
+    }
+    let bytes = read_at_most(&convert.input, MOST_BYTES)?;
+    let sha256: String = Sha256::digest(&bytes).iter().map(|byte| format!("{byte:02x}")).collect();
+    let program = Program::default();
+    let source = Source {
+        name: convert.out.file_name().and_then(OsStr::to_str).unwrap_or("measured").to_owned(),
+        file: Input { path: name, sha256 },
+        format: format.word().to_owned(),
+        version: program.version,
+        git_hash: program.git_hash,
+    };
+    let taken = measured::write(&convert.out, &read.description, source, Mode::New)?;
+    let mut losses = Losses::default();
+    let told = "its tables are written, and no picture of it can be drawn";
+    losses.add("places, which the file does not tell, of plants", taken.without_places, told);
+    let entities = &read.description.individuals;
+    let values = entities.iter().flat_map(|one| &one.entities).flat_map(|entity| &entity.observations);
+    let values: usize = values.map(|seen| seen.values.len()).sum();
+    losses.add("values of features", values as u64, "the tables of a run have no columns for them");
+    let bytes = taken.report.files.iter().map(|file| file.bytes).sum();
+    tell(convert, &read, "run", (&losses, bytes))?;
+    Ok(Verdict::Done)
+}
+
 /// Converts to a format.
 pub fn obey(convert: &Convert, to: &'static dyn Format) -> Result<Verdict> {
     let name = convert.input.display().to_string();
@@ -69,7 +115,7 @@ pub fn obey(convert: &Convert, to: &'static dyn Format) -> Result<Verdict> {
     let mut losses = Losses::default();
     let written = to.write(&read.description, &mut files, &mut losses);
     written.with_context(|| format!("cannot write {}", convert.out.display()))?;
-    tell(convert, &read, to, (&losses, files.bytes))?;
+    tell(convert, &read, to.word(), (&losses, files.bytes))?;
     Ok(Verdict::Done)
 }
 
@@ -208,7 +254,7 @@ fn refuse(convert: &Convert, report: &Report) -> Result<Verdict> {
     Ok(Verdict::Invalid)
 }
 
-fn tell(convert: &Convert, read: &Read, to: &dyn Format, (losses, bytes): (&Losses, u64)) -> Result<()> {
+fn tell(convert: &Convert, read: &Read, to: &str, (losses, bytes): (&Losses, u64)) -> Result<()> {
     let out = convert.out.display().to_string();
     let (plants, entities) = (read.description.individuals.len(), read.description.entities());
     let warnings = read.report.warnings();
@@ -221,7 +267,7 @@ fn tell(convert: &Convert, read: &Read, to: &dyn Format, (losses, bytes): (&Loss
             losses.told().iter().map(|loss| json!({"what": loss.what, "count": loss.count, "instead": loss.instead}));
         let lost: Vec<Value> = lost.collect();
         let object = json!({"status": "done", "in": convert.input.display().to_string(), "out": out,
-            "from": read.format.unwrap_or("grown"), "to": to.word(), "plants": plants, "entities": entities,
+            "from": read.format.unwrap_or("grown"), "to": to, "plants": plants, "entities": entities,
             "bytes": bytes, "warnings": warnings, "lost": lost});
         format!("{object:#}")
     } else {

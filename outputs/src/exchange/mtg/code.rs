@@ -1,8 +1,8 @@
 //! The code of an entity: signs and labels, such as `^/A1+U2/E1<<E35`.
 //!
-//! `/` begins the parts of a complex, `<` follows, `+` branches; `<<` and `++` stand for all entities with an index
-//! up to that after them, the last of which has the features of the line; of `<.<` and `+.+` each has them. `^` goes
-//! on from the entity above in the same column, `(name)` from the entity with this alias.
+//! `/` begins the parts of a complex, `<` follows, `+` branches; `<<` and `++` stand for all entities with an index up
+//! to that after them, the last of which has the features of the line; of `<.<` and `+.+` each has them. `^` goes on
+//! from the entity above in the same column, `(name)` from the entity with this alias.
 
 /// How an entity is related to the one before it in its code.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

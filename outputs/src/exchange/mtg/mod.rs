@@ -1,9 +1,9 @@
 //! MTG: multiscale tree graphs in FORM-A (Godin & Caraglio 1998; AMAPmod, openalea.mtg, MultiScaleTreeGraph.jl, Xplo).
 //!
 //! `header` reads the sections before the entities, `code` the codes of entities, `reading` the rows, `values` cells
-//! and dates, `names` what features mean; `writing` writes. A file of this program says in its first line that
-//! lengths are metres and that XX, YY and ZZ are the base of a component; in other files they are its end, as
-//! digitised plants have them, and the unit is the caller's.
+//! and dates, `names` what features mean; `writing` writes. A file of this program says in its first line that lengths
+//! are metres and that XX, YY and ZZ are the base of a component; in other files they are its end, as digitised plants
+//! have them, and the unit is the caller's.
 
 mod code;
 mod header;

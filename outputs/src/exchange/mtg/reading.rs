@@ -4,17 +4,18 @@
 //! file names there; the complex that it belongs to is the nearest whole of a coarser scale around that. So a leap of
 //! scales needs no rule of its own. A root that is not declared stands for the file and is left out.
 
-use super::code::{self, From, Labelled, Sign, symbol_and_index};
+use super::code::{self, From};
 use super::header::{Cells, Columns, Header, Section, cell, column};
 use super::names::{MARK, Meaning, role};
 use super::values::Cell;
-use crate::exchange::contract::{Incoming, MOST_ENTITIES, Units};
-use crate::exchange::description::{Description, Entity, Individual, Link};
+use crate::exchange::contract::{Incoming, Units};
+use crate::exchange::description::Description;
 use crate::exchange::report::Report;
 use crate::exchange::text::{decoded, said};
 use std::collections::HashMap;
 
 mod ends;
+mod entities;
 mod sizes;
 
 /// The most entities that ranges of a file stand for: `A1<<A999999999` is no plant.
@@ -298,140 +299,5 @@ impl Reader<'_> {
         };
         self.report.fault((number, column(line, code)), problem, expected);
         None
-    }
-
-    /// Adds an entity of a code, or those of a range; where the code then is.
-    fn labelled(
-        &mut self,
-        (number, line): (usize, &str),
-        Labelled { sign, label }: Labelled<'_>,
-        here: Here,
-        (first_column, each): (bool, &mut Vec<u32>),
-        last: bool,
-    ) -> Here {
-        let place = (number, column(line, label));
-        let Some((symbol, index)) = symbol_and_index(label) else {
-            let problem = format!("the label `{}` has no number as its index", said(label));
-            self.report.fault(place, problem, "a symbol and an index, such as `U12` or `U1.5`");
-            return Here::Lost;
-        };
-        let Some(class) = self.header.class(symbol) else {
-            if here == Here::Nowhere && !self.begun && first_column && last && !symbol.is_empty() {
-                let told = format!(
-                    "the root `{}` is of no declared class: it stands for the file and is left out",
-                    said(label)
-                );
-                self.report.warn((number, 0), "", told);
-                return Here::Scene;
-            }
-            let known: Vec<&str> = self.header.classes.iter().take(12).map(|class| class.symbol.as_str()).collect();
-            let problem = format!("no class `{}` is declared", said(symbol));
-            let expected = format!("one of the classes {}", known.join(", "));
-            self.report.fault(place, problem, expected);
-            return Here::Lost;
-        };
-        if here == Here::Nowhere && sign != Sign::Decomposes {
-            let problem = format!("`{}` begins a plant", said(label));
-            self.report.fault(place, problem, "`/` before what begins a plant, such as `/P1`");
-            return Here::Lost;
-        }
-        match sign {
-            Sign::Decomposes => self.add((number, line, label), class, index, here, None),
-            Sign::Follows => self.add((number, line, label), class, index, here, Some(Link::Follows)),
-            Sign::Branches => self.add((number, line, label), class, index, here, Some(Link::Branches)),
-            Sign::FollowTo { each: all } => {
-                let keep = all.then_some(each);
-                self.range((number, line, label), (class, index), here, (Link::Follows, keep))
-            }
-            Sign::BranchTo { each: all } => {
-                let keep = all.then_some(each);
-                self.range((number, line, label), (class, index), here, (Link::Branches, keep))
-            }
-        }
-    }
-
-    /// Adds the entities of a range: those after `here` up to an index. `each` takes them, where all have the values.
-    fn range(
-        &mut self,
-        (number, line, label): (usize, &str, &str),
-        (class, until): (usize, Option<f64>),
-        here: Here,
-        (link, mut each): (Link, Option<&mut Vec<u32>>),
-    ) -> Here {
-        let Here::At(plant, entity) = here else { return Here::Lost };
-        let from = &self.description.individuals[plant as usize].entities[entity as usize];
-        let (same, first) = (from.class == self.classes[class], from.index);
-        let whole = |index: Option<f64>| index.filter(|index| index.fract() == 0.0);
-        let (Some(first), Some(until)) = (whole(first).filter(|_| same), whole(until)) else {
-            let problem = format!("the range to `{}` has no beginning of the same class with an index", said(label));
-            self.report.fault((number, column(line, label)), problem, "a range such as `E1<<E35`");
-            return Here::Lost;
-        };
-        if until < first {
-            let problem = format!("the range to `{}` goes down from {first}", said(label));
-            self.report.fault((number, column(line, label)), problem, "a range that rises, such as `E1<<E35`");
-            return Here::Lost;
-        }
-        let count = (until - first) as u64;
-        self.ranged = self.ranged.saturating_add(count);
-        if self.ranged > MOST_RANGED {
-            let problem = format!(
-                "with the range to `{}` the ranges of the file stand for {} entities",
-                said(label),
-                self.ranged
-            );
-            self.report.fault((number, column(line, label)), problem, format!("at most {MOST_RANGED}"));
-            return Here::Lost;
-        }
-        if let Some(each) = each.as_mut() {
-            each.push(entity);
-        }
-        let mut at = here;
-        for step in 1..=count {
-            at = self.add((number, line, label), class, Some(first + step as f64), at, Some(link));
-            if let (Some(each), Here::At(_, added)) = (each.as_mut(), at) {
-                each.push(added);
-            }
-        }
-        at
-    }
-
-    fn add(
-        &mut self,
-        (number, line, label): (usize, &str, &str),
-        class: usize,
-        index: Option<f64>,
-        here: Here,
-        link: Option<Link>,
-    ) -> Here {
-        if self.entities == MOST_ENTITIES {
-            let problem = "the file stands for too many entities";
-            self.report.fault((number, column(line, label)), problem, format!("at most {MOST_ENTITIES}"));
-            return Here::Lost;
-        }
-        let scale = self.header.classes[class].scale;
-        let around = match here {
-            Here::At(plant, entity) => {
-                let individual = &self.description.individuals[plant as usize];
-                let classes = &self.description.classes;
-                let complex = individual.within(entity, |whole| classes[whole.class as usize].scale < scale);
-                Some((plant, entity, complex)).filter(|(.., complex)| link.is_some() || complex.is_some())
-            }
-            Here::Lost => return Here::Lost,
-            Here::Nowhere | Here::Scene => None,
-        };
-        self.entities += 1;
-        let mut entity = Entity { index, ..Entity::of(self.classes[class]) };
-        let Some((plant, from, complex)) = around else {
-            self.description.individuals.push(Individual { entities: vec![entity], ..Individual::default() });
-            return Here::At(self.description.individuals.len() as u32 - 1, 0);
-        };
-        entity.complex = complex;
-        if let Some(link) = link {
-            (entity.bearer, entity.link) = (Some(from), Some(link));
-        }
-        let entities = &mut self.description.individuals[plant as usize].entities;
-        entities.push(entity);
-        Here::At(plant, entities.len() as u32 - 1)
     }
 }

@@ -28,7 +28,10 @@ const BAD: [(&str, &[&str]); 15] = [
     ),
     ("/P1/A1\t+A2\n", &["23:8: a second code, `+A2`, stands in the line; expected one code a line"]),
     ("*\t\t\t\t1\n", &["23:1: `*` observes an entity again, and none stands above it in its column"]),
-    ("/P1/Q1\n\t+A1\n/P2/A\u{7f}1\n^/\n", &["23:5: no class `Q`", "25:5: no class `A\u{7f}`"]),
+    (
+        "/P1/Q1\n\t+A1\n/P2/A\u{7f}1\n^/\n",
+        &["23:5: no class `Q`", "25:5: no class `A\u{7f}`", "26:2: `/` is no code of an entity"],
+    ),
 ];
 
 #[test]
