@@ -16,11 +16,14 @@ pub mod canopy;
 pub mod field;
 pub mod grid;
 pub mod lattice;
+pub mod loss;
 pub mod normals;
 pub mod shadow;
 pub mod sky;
 pub mod spot;
 pub mod sun;
+pub mod sweep;
+pub mod wanted;
 
 #[cfg(test)]
 mod tests_balance;
