@@ -8,8 +8,8 @@ pub type Pair = [f64; 2];
 
 /// Below this the series alone is enough.
 const SMALL: f64 = 0.1;
-/// Below this the series of an eighth is, and the eighth doubled three times.
-const MIDDLE: f64 = 0.8;
+/// Below this the series of a sixteenth is, doubled four times.
+const MIDDLE: f64 = 1.6;
 /// 1 − e^(−x), for x of 0 or more, to 3 · 10⁻¹⁴ of it.
 #[inline]
 pub fn lost(x: f64) -> f64 {
@@ -34,14 +34,14 @@ fn series(x: Pair) -> Pair {
     times(x, plus(low, times(fourth, high)))
 }
 
-/// [`lost`] of twice two numbers. Those in the middle are found without an exponential: of 2 x is lost what is lost of x,
+/// [`lost`] of twice two numbers. Those that are not large are found without an exponential: of 2 x is lost what is lost of x,
 /// and the same share of the rest.
 #[inline(always)]
 pub fn lost_of_each(x: [Pair; 2]) -> [Pair; 2] {
     let [one, other] = x;
     let large = larger(larger(one[0], one[1]), larger(other[0], other[1]));
     if large < MIDDLE {
-        return [middling(one), middling(other)];
+        return [doubled_up(one), doubled_up(other)];
     }
     x.map(|x| x.map(lost))
 }
@@ -52,8 +52,8 @@ fn larger(one: f64, other: f64) -> f64 {
 }
 
 #[inline(always)]
-fn middling(x: Pair) -> Pair {
-    doubled(doubled(doubled(series(times(x, [0.125; 2])))))
+fn doubled_up(x: Pair) -> Pair {
+    doubled(doubled(doubled(doubled(series(times(x, [0.0625; 2]))))))
 }
 
 #[inline(always)]

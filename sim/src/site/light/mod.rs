@@ -32,6 +32,8 @@ mod tests_canopy;
 #[cfg(test)]
 mod tests_sphere;
 #[cfg(test)]
+mod tests_sweep;
+#[cfg(test)]
 mod tests_wall;
 
 pub use canopy::{Canopy, Piece, Standing};

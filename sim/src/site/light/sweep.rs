@@ -27,6 +27,9 @@ const BEAMS: usize = ABOUT * SIDE;
 /// A number so small that what is divided by it lies beyond all voxels.
 const LEVEL: f64 = 1e-12;
 
+/// The places of voxels along an edge of a brick.
+const PLACES: [f64; EDGE as usize] = [0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0];
+
 /// One beam.
 #[derive(Debug, Clone, Copy)]
 struct Ray {
@@ -207,9 +210,9 @@ impl Beams {
     /// Lets a voxel, by its place in the brick, with this extinction keep of the beams that cross it: the intensity
     /// along their ways, summed over the ways, and the ways, metres; and what they lose.
     #[inline(always)]
-    fn cross(&mut self, about: &About, voxel: [u32; 3], k: f64) -> (Pair, f64) {
+    fn cross(&mut self, about: &About, voxel: [usize; 3], k: f64) -> (Pair, f64) {
         let View { axes: [level, upward], half, .. } = &self.view;
-        let [x, y, z] = voxel.map(f64::from);
+        let [x, y, z] = voxel.map(|place| PLACES[place % PLACES.len()]);
         let u = (about.middle[0] + (level[1] * y + level[2] * z)) + level[0] * x;
         let v = (about.middle[1] + (upward[1] * y + upward[2] * z)) + upward[0] * x;
         // The first row that may meet it.

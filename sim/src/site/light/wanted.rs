@@ -82,29 +82,25 @@ impl Wanted {
     /// Shows the wanted voxels of a brick in an order in which light along a way that goes down meets them: their places
     /// in the brick, and their numbers.
     #[inline]
-    pub fn each_of(&self, brick: usize, way: Point, mut show: impl FnMut([u32; 3], usize)) {
+    pub fn each_of(&self, brick: usize, way: Point, mut show: impl FnMut([usize; 3], usize)) {
         let falls = [way[0] < 0.0, way[1] < 0.0];
-        for z in (0..EDGE as u32).rev() {
-            for row in 0..EDGE as u32 {
-                let y = if falls[1] { EDGE as u32 - 1 - row } else { row };
-                let row = brick * ROWS + ((z << BITS) | y) as usize;
+        for z in (0..EDGE as usize).rev() {
+            for row in 0..EDGE as usize {
+                let y = if falls[1] { EDGE as usize - 1 - row } else { row };
+                let row = brick * ROWS + ((z << BITS) | y);
                 let mut bits = u32::from(self.rows[row]);
-                let first = self.first[row] as usize;
-                if falls[0] {
-                    let mut number = first + bits.count_ones() as usize;
-                    while bits != 0 {
-                        let x = 31 - bits.leading_zeros();
-                        bits ^= 1 << x;
-                        number -= 1;
-                        show([x, y, z], number);
-                    }
-                } else {
-                    let mut number = first;
-                    while bits != 0 {
-                        show([bits.trailing_zeros(), y, z], number);
-                        bits &= bits - 1;
-                        number += 1;
-                    }
+                let [mut from, mut to] =
+                    [self.first[row] as usize, self.first[row] as usize + bits.count_ones() as usize];
+                while bits != 0 {
+                    let (x, number) = if falls[0] {
+                        to -= 1;
+                        (31 - bits.leading_zeros(), to)
+                    } else {
+                        from += 1;
+                        (bits.trailing_zeros(), from - 1)
+                    };
+                    bits ^= 1 << x;
+                    show([x as usize, y, z], number);
                 }
             }
         }
