@@ -123,8 +123,9 @@ impl<'a> Around<'a> {
         let (tip, more) = (self.tip(), if self.ahead.is_none() { self.grown } else { 0.0 });
         let Some(stems) = self.stems else { return true };
         let known = self.beside.look(stems, tip, reach + more, self.spared);
-        // Rounding, and the little more at which a climber still holds, are far less than the clearance.
-        !known || (self.felt.is_none() && !self.beside.any_within(tip, reach + more + CLEARANCE))
+        // A climber looks for what it holds to wherever some stem is known. Rounding is far less than the clearance.
+        let looks = self.felt.is_some() || self.laws.answer == Answer::Fasten;
+        !known || (!looks && !self.beside.any_within(tip, reach + more + CLEARANCE))
     }
 
     /// The distance at which a climber holds; 0 of other plants.
