@@ -117,10 +117,15 @@ impl<'a> Around<'a> {
         self.free > reach
     }
 
-    /// Whether no stem is within `reach` of the tip; those that are, and some that are not, are known then.
+    /// Whether no stem is within `reach` of the tip; those that are, and some that are not, are known then. What the bud
+    /// has felt turns its next internode wherever some stem is known.
     fn is_far_from_stems(&mut self, reach: f64) -> bool {
         let (tip, more) = (self.tip(), if self.ahead.is_none() { self.grown } else { 0.0 });
-        self.stems.is_none_or(|stems| !self.beside.look(stems, tip, reach + more, self.spared))
+        let Some(stems) = self.stems else { return true };
+        let known = self.beside.look(stems, tip, reach + more, self.spared);
+        // A climber looks for what it holds to wherever some stem is known. Rounding is far less than the clearance.
+        let looks = self.felt.is_some() || self.laws.answer == Answer::Fasten;
+        !known || (!looks && !self.beside.any_within(tip, reach + more + CLEARANCE))
     }
 
     /// The distance at which a climber holds; 0 of other plants.

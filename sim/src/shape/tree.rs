@@ -26,6 +26,28 @@ struct Node {
     item: u32,
 }
 
+/// An item while the tree is made.
+#[derive(Debug, Clone, Copy)]
+struct Item {
+    /// The middle of its bounds.
+    middle: Point,
+    item: u32,
+}
+
+/// The axis along which the middles of items spread widest, the first of equal ones.
+fn widest(items: &[Item]) -> usize {
+    let (mut least, mut most) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
+    for item in items {
+        for axis in 0..3 {
+            let middle = item.middle[axis];
+            least[axis] = if middle < least[axis] { middle } else { least[axis] };
+            most[axis] = if middle > most[axis] { middle } else { most[axis] };
+        }
+    }
+    let spread = |axis: usize| most[axis] - least[axis];
+    (1..3).fold(0, |widest, axis| if spread(axis) > spread(widest) { axis } else { widest })
+}
+
 /// How a walk goes on from a node.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Walk {
@@ -38,7 +60,9 @@ pub enum Walk {
 impl Tree {
     /// The tree over items with these bounds.
     pub fn of(bounds: &[Bounds]) -> Self {
-        let mut items: Vec<u32> = (0..bounds.len().min(NO_ITEM as usize) as u32).collect();
+        let middle = |bounds: &Bounds| [0, 1, 2].map(|axis| bounds.middle(axis));
+        let items = (0..NO_ITEM).zip(bounds).map(|(item, bounds)| Item { middle: middle(bounds), item });
+        let mut items: Vec<Item> = items.collect();
         let mut tree = Self { nodes: Vec::with_capacity(2 * items.len()) };
         if !items.is_empty() {
             tree.add(bounds, &mut items);
@@ -46,27 +70,25 @@ impl Tree {
         tree
     }
 
-    /// Adds the tree over some of the items; its depth is the logarithm of their number.
-    fn add(&mut self, bounds: &[Bounds], items: &mut [u32]) {
-        let all = items.iter().fold(Bounds::NOTHING, |all, item| all.with(&bounds[*item as usize]));
+    /// Adds the tree over some of the items, and tells its bounds; its depth is the logarithm of their number.
+    fn add(&mut self, bounds: &[Bounds], items: &mut [Item]) -> Bounds {
         let place = self.nodes.len();
-        let item = if let [item] = *items { item } else { NO_ITEM };
-        self.nodes.push(Node { bounds: all, past: 0, item });
-        if items.len() > 1 {
-            let middle = |item: u32, axis: usize| bounds[item as usize].middle(axis);
-            let spread = |axis: usize| {
-                let middles = || items.iter().map(|item| middle(*item, axis));
-                middles().fold(f64::NEG_INFINITY, f64::max) - middles().fold(f64::INFINITY, f64::min)
-            };
-            let axis = (1..3).fold(0, |widest, axis| if spread(axis) > spread(widest) { axis } else { widest });
+        self.nodes.push(Node { bounds: Bounds::NOTHING, past: 0, item: NO_ITEM });
+        let all = if let [item] = items {
+            self.nodes[place].item = item.item;
+            bounds[item.item as usize]
+        } else {
+            let axis = widest(items);
             // Which items are in a half follows from their order, so the tree is that of sorted items.
             let half = items.len() / 2;
-            items.select_nth_unstable_by(half, |a, b| middle(*a, axis).total_cmp(&middle(*b, axis)).then(a.cmp(b)));
+            let order = |a: &Item, b: &Item| a.middle[axis].total_cmp(&b.middle[axis]).then(a.item.cmp(&b.item));
+            items.select_nth_unstable_by(half, order);
             let (first, second) = items.split_at_mut(half);
-            self.add(bounds, first);
-            self.add(bounds, second);
-        }
-        self.nodes[place].past = self.nodes.len() as u32;
+            let first = self.add(bounds, first);
+            first.with(&self.add(bounds, second))
+        };
+        (self.nodes[place].bounds, self.nodes[place].past) = (all, self.nodes.len() as u32);
+        all
     }
 
     /// The bounds of all items.

@@ -6,17 +6,18 @@
 
 use super::grid::{BITS, Grid, NONE, VOXELS, within_brick};
 use super::lattice::{Beam, each_beam};
+use super::loss::lost;
 use super::shadow::Shadows;
 use super::spot::Spot;
+use super::wanted::Wanted;
 use super::{Balance, Source};
-use crate::math::exp;
 use crate::shape::Point;
 
 /// The light of one source.
 #[derive(Debug)]
 pub struct Shone {
-    /// Of each voxel, the intensity along the ways of beams in it, summed over the ways, and the ways, metres; the
-    /// intensity on open ground is 1.
+    /// Of each wanted voxel, the intensity along the ways of beams in it, summed over the ways, and the ways, metres;
+    /// the intensity on open ground is 1.
     pub along: Vec<[f64; 2]>,
     /// What becomes of the light, m² across the beams.
     pub balance: Balance,
@@ -24,21 +25,24 @@ pub struct Shone {
     pub section: f64,
 }
 
-/// Sends the beams of a source through a grid whose voxels have these extinctions, 1/m.
-pub fn shine(grid: &Grid, extinction: &[f64], shadows: &Shadows, source: &Source) -> Shone {
+/// Sends the beams of a source through a grid whose wanted voxels have these extinctions, 1/m; the others have none.
+pub fn shine(grid: &Grid, wanted: &Wanted, extinction: &[f64], shadows: &Shadows, source: &Source) -> Shone {
     let mut shone = Shone { along: vec![[0.0; 2]; extinction.len()], balance: Balance::default(), section: 0.0 };
-    each_beam(grid, source, shadows.top(), &mut |beam| follow(grid, extinction, shadows, beam, &mut shone));
+    let wanted = (wanted, extinction);
+    each_beam(grid, source, shadows.top(), &mut |beam| follow(grid, wanted, shadows, beam, &mut shone));
     shone
 }
 
-fn follow(grid: &Grid, extinction: &[f64], shadows: &Shadows, beam: &Beam, shone: &mut Shone) {
+fn follow(grid: &Grid, wanted: (&Wanted, &[f64]), shadows: &Shadows, beam: &Beam, shone: &mut Shone) {
     let (Some(first), Some(last)) = (beam.stretches.first(), beam.stretches.last()) else { return };
     let ends = [first[0], last[1]];
     let dark_from = if shadows.is_empty() { f64::INFINITY } else { dark_from(grid, shadows, beam, ends) };
     let (mut light, mut kept) = (1.0, 0.0);
+    let (wanted, extinction) = wanted;
     let mut in_voxel = |index: usize, from: f64, to: f64| {
-        let k = extinction[index];
-        let sums = &mut shone.along[index];
+        let Some(number) = wanted.number(index) else { return };
+        let k = extinction[number];
+        let sums = &mut shone.along[number];
         sums[1] += to - from;
         let way = to.min(dark_from) - from;
         if way <= 0.0 {
@@ -68,21 +72,6 @@ fn dark_from(grid: &Grid, shadows: &Shadows, beam: &Beam, [first, last]: [f64; 2
     }
     shadows.first_hit(at(first), beam.way, last - first).map_or(f64::INFINITY, |gone| first + gone)
 }
-
-/// 1 − e^(−x), for x of 0 or more.
-#[inline]
-pub fn lost(x: f64) -> f64 {
-    if x < 0.1 {
-        // The series up to x⁸: off by less than 10⁻¹⁴ of its value.
-        let term = |sum: f64, share: f64| 1.0 - x * share * sum;
-        x * SHARES.into_iter().fold(1.0, term)
-    } else {
-        1.0 - exp(-x)
-    }
-}
-
-/// What each term of the series has of the one before it.
-const SHARES: [f64; 7] = [1.0 / 8.0, 1.0 / 7.0, 1.0 / 6.0, 1.0 / 5.0, 1.0 / 4.0, 1.0 / 3.0, 1.0 / 2.0];
 
 /// Shows the voxels of bricks on a stretch of a line in their order, by their index, with where it enters and leaves
 /// each, metres from its beginning. Nothing but the place in a voxel at the beginning goes into these, so whole voxels
@@ -130,8 +119,8 @@ fn nearest([x, y, z]: [f64; 3]) -> usize {
     }
 }
 
-/// The optical depth between a place and the light from a direction.
-pub fn depth_towards(grid: &Grid, extinction: &[f64], from: Spot, towards: Point) -> f64 {
+/// The optical depth between a place and the light from a direction, where voxels have these extinctions, 1/m.
+pub fn depth_towards(grid: &Grid, extinction: impl Fn(usize) -> f64, from: Spot, towards: Point) -> f64 {
     let Some([low, high]) = grid.bounds() else { return 0.0 };
     let mut bounds = crate::shape::Bounds { low, high };
     if grid.repeats() {
@@ -140,6 +129,6 @@ pub fn depth_towards(grid: &Grid, extinction: &[f64], from: Spot, towards: Point
     let place = grid.place(from);
     let Some((first, last)) = super::shadow::passage(&bounds, place, towards, f64::INFINITY) else { return 0.0 };
     let mut depth = 0.0;
-    walk(grid, from, towards, [first, last], &mut |index, from, to| depth += extinction[index] * (to - from));
+    walk(grid, from, towards, [first, last], &mut |index, from, to| depth += extinction(index) * (to - from));
     depth
 }

@@ -7,7 +7,7 @@
 
 use crate::clock::Tick;
 use crate::plant::{AxisId, Frame, NodeId, OrganId, Plant};
-use crate::pose::{bud_frame, organ_frame};
+use crate::pose::{bud_base, organ_frame};
 use crate::shape::Point;
 use std::f64::consts::FRAC_PI_2;
 
@@ -85,7 +85,7 @@ impl Canopy for Standing<'_> {
         for axis in 0..plant.axes.len() {
             let id = AxisId(axis as u32);
             if plant.bud_lives(id, age) {
-                show(axis, in_plot(plant, bud_frame(plant, id).base));
+                show(axis, in_plot(plant, bud_base(plant, id)));
             }
         }
     }
@@ -122,8 +122,13 @@ struct Blade<'a> {
 fn blade_pieces(blade: &Blade, longest: f64, show: &mut dyn FnMut(Piece)) {
     let Blade { plant, frame, sides: [length, width], area } = *blade;
     let [heading, normal] = [frame.heading, frame.up].map(|of| of.map(f64::from));
-    let across = cross(heading, normal);
     let base = in_plot(plant, frame.base);
+    if length <= longest && width <= longest {
+        // In one piece, with its middle on the midrib.
+        show(Piece { place: [0, 1, 2].map(|k| base[k] + heading[k] * (0.5 * length)), normal, area });
+        return;
+    }
+    let across = cross(heading, normal);
     let [rows, columns] = [length, width].map(|side| (side / longest).ceil().clamp(1.0, MOST_PIECES));
     // The width of the ellipse in the middle of each row.
     let wide = |row: f64| {

@@ -3,7 +3,8 @@
 //! Sources are followed side by side, each by one thread from its first beam to its last, and their sums are added in
 //! the order of the sources: so no number of threads shows. Of a source a voxel has the share of its light that beams
 //! have in it on average, and keeps what they leave there. A voxel that the beams of a source miss is asked at its
-//! middle. Absent: beams (`beam`), and what a canopy is (`canopy`).
+//! middle. Absent: beams (`sweep`, `beam`), and what a canopy is
+//! (`canopy`).
 
 use super::beam::{self, Shone, depth_towards};
 use super::canopy::{Canopy, Piece};
@@ -11,6 +12,8 @@ use super::grid::{BITS, Grid, UNITS, VOXELS};
 use super::normals::{CLASSES, axes, met};
 use super::shadow::Shadows;
 use super::spot::Spot;
+use super::sweep;
+use super::wanted::Wanted;
 use super::{Balance, LightModel, Lighting, Lit, Projection, Source};
 use crate::math::exp;
 use crate::shape::Point;
@@ -18,8 +21,9 @@ use rayon::iter::{
     IndexedParallelIterator, IntoParallelIterator, IntoParallelRefIterator, IntoParallelRefMutIterator,
     ParallelIterator,
 };
+use std::borrow::Cow;
 
-/// The sources that are followed at once: each takes 16 bytes a voxel.
+/// The sources that are followed at once: each takes 16 bytes a wanted voxel.
 const AT_ONCE: usize = 8;
 
 /// The fewest plants whose leaf area a thread adds up in a grid of its own.
@@ -38,7 +42,7 @@ pub struct Field {
     pub grid: Grid,
     /// What lit them.
     pub sources: Vec<Source>,
-    /// The share of open light in each voxel, its mean over the voxel.
+    /// The share of open light in each voxel whose light is wanted, its mean over the voxel; 0 in the others.
     pub light: Vec<f64>,
     /// The light that each voxel keeps, m² of open ground.
     pub kept: Vec<f64>,
@@ -81,67 +85,65 @@ impl Field {
 
     /// The light in voxels that hold this leaf area.
     pub fn in_grid(lighting: &Lighting, grid: Grid, sources: &[Source]) -> Self {
-        let shadows = Shadows::of(&lighting.opaque, lighting.borders, lighting.origin);
-        let voxels = grid.area.len();
         let mut field = Self {
             grid,
             sources: sources.to_vec(),
-            light: vec![0.0; voxels],
-            kept: vec![0.0; voxels],
+            light: Vec::new(),
+            kept: Vec::new(),
             balance: Balance::default(),
             lighting: lighting.clone(),
         };
-        let even = field.even_extinction();
-        for some in sources.chunks(AT_ONCE) {
-            let one = |source: &Source| {
-                let extinction = field.extinction(&even, source.towards);
-                let mut shone = beam::shine(&field.grid, &extinction, &shadows, source);
-                field.fill_missed(&mut shone, &extinction, &shadows, source);
-                // What is kept stands in the place of the ways, which are no longer needed.
-                for (sums, k) in shone.along.iter_mut().zip(&*extinction) {
-                    let share = if sums[1] > 0.0 { (sums[0] / sums[1]).min(1.0) } else { 0.0 };
-                    *sums = [share, sums[0] * k];
-                }
-                shone
-            };
-            let shone: Vec<Shone> = some.par_iter().map(one).collect();
-            field.add(some, &shone);
-        }
-        field.light.iter_mut().for_each(|light| *light = light.min(1.0));
+        let lit = field.lit(&Wanted::of(&field.grid));
+        (field.light, field.kept, field.balance) = lit;
         field
     }
 
-    /// Adds the light of sources, in their order in each voxel.
-    fn add(&mut self, sources: &[Source], shone: &[Shone]) {
-        // Light across a beam of 1 m² falls on 1/sine m² of level ground.
-        let on_ground = |source: &Source| source.weight / source.towards[2];
-        let scale = |(source, shone): (&Source, &Shone)| (source.weight, on_ground(source) * shone.section);
-        let scales: Vec<(f64, f64)> = sources.iter().zip(shone).map(scale).collect();
-        let voxels = self.light.par_iter_mut().zip(&mut self.kept).enumerate().with_min_len(FEWEST_VOXELS);
-        voxels.for_each(|(voxel, (light, kept))| {
-            for (shone, (of_light, of_kept)) in shone.iter().zip(&scales) {
-                let [share, lost] = shone.along[voxel];
-                *light += of_light * share;
-                *kept += of_kept * lost;
-            }
-        });
-        for (source, shone) in sources.iter().zip(shone) {
-            let Balance { sent, kept, stopped, passed } = shone.balance;
-            let [sent, kept, stopped, passed] = [sent, kept, stopped, passed].map(|of| of * on_ground(source));
-            self.balance = self.balance.with(Balance { sent, kept, stopped, passed });
+    /// Of all voxels the light and what they keep; what becomes of all light.
+    fn lit(&self, wanted: &Wanted) -> (Vec<f64>, Vec<f64>, Balance) {
+        let shadows = self.shadows();
+        let even = wanted.indices().map(|index| self.extinction(index, None)).collect::<Vec<f64>>();
+        let mut sums = vec![[0.0; 2]; wanted.count()];
+        let mut balance = Balance::default();
+        for some in self.sources.chunks(AT_ONCE) {
+            let one = |source: &Source| self.shone(wanted, &even, &shadows, source);
+            let shone: Vec<Shone> = some.par_iter().map(one).collect();
+            balance = add(&mut sums, balance, some, &shone);
         }
+        let voxels = self.grid.area.len();
+        let (mut light, mut kept) = (vec![0.0; voxels], vec![0.0; voxels]);
+        for (index, [share, lost]) in wanted.indices().zip(sums) {
+            (light[index], kept[index]) = (share.min(1.0), lost);
+        }
+        (light, kept, balance)
     }
 
-    /// Finds the light in the middle of each voxel that is wanted and that the beams of a source have missed.
-    fn fill_missed(&self, shone: &mut Shone, extinction: &[f64], shadows: &Shadows, source: &Source) {
-        for (index, sums) in shone.along.iter_mut().enumerate().filter(|(_, sums)| sums[1] == 0.0) {
-            if !self.grid.is_wanted(index) {
-                continue;
+    /// The light of one source. `along` has of each wanted voxel the share of its light and what it keeps of it.
+    fn shone(&self, wanted: &Wanted, even: &[f64], shadows: &Shadows, source: &Source) -> Shone {
+        let extinction: Cow<[f64]> = match self.lighting.projection {
+            Projection::Even(_) => even.into(),
+            Projection::OfLeaves => {
+                let met = self.met(source.towards);
+                wanted.indices().map(|index| self.extinction(index, met.as_ref())).collect()
             }
+        };
+        let mut shone = if self.grid.repeats() || !shadows.is_empty() {
+            beam::shine(&self.grid, wanted, &extinction, shadows, source)
+        } else {
+            sweep::shine(&self.grid, wanted, &extinction, source)
+        };
+        let missed = shone.along.iter_mut().zip(wanted.indices()).filter(|(sums, _)| sums[1] == 0.0);
+        for (sums, index) in missed {
             let middle = Spot { voxel: self.voxel_of(index), inner: [0.5; 3] };
-            let share = share_of(&self.grid, extinction, shadows, (middle, source));
-            *sums = [share * NO_WAY, NO_WAY];
+            *sums = [self.share_of(shadows, middle, source) * NO_WAY, NO_WAY];
         }
+        for (sums, k) in shone.along.iter_mut().zip(&*extinction) {
+            *sums = [(sums[0] / sums[1]).min(1.0), sums[0] * k];
+        }
+        shone
+    }
+
+    fn shadows(&self) -> Shadows {
+        Shadows::of(&self.lighting.opaque, self.lighting.borders, self.lighting.origin)
     }
 
     fn voxel_of(&self, index: usize) -> [i32; 3] {
@@ -150,47 +152,52 @@ impl Field {
         [0, 1, 2].map(|k| (place[k] << BITS) + inner[k])
     }
 
-    /// The extinction of each voxel, 1/m, where it is the same in all directions; else nothing.
-    fn even_extinction(&self) -> Vec<f64> {
-        let Projection::Even(g) = self.lighting.projection else { return Vec::new() };
-        let of_unit = g / UNITS / self.grid.volume();
-        self.grid.area.iter().map(|units| *units as f64 * of_unit).collect()
+    /// How much a beam meets of a unit of leaf area of each class of normals, by the volume of a voxel, 1/m; `None` where
+    /// normals do not matter.
+    fn met(&self, towards: Point) -> Option<[f64; CLASSES]> {
+        let of_unit = 1.0 / UNITS / self.grid.volume();
+        let of_leaves = self.lighting.projection == Projection::OfLeaves;
+        of_leaves.then(|| axes().map(|axis| met(axis, towards) * of_unit))
     }
 
-    fn extinction<'a>(&self, even: &'a [f64], towards: Point) -> std::borrow::Cow<'a, [f64]> {
-        if self.lighting.projection != Projection::OfLeaves {
-            return even.into();
+    /// The extinction of a voxel, 1/m, for light that meets so much of its leaves.
+    fn extinction(&self, index: usize, met: Option<&[f64; CLASSES]>) -> f64 {
+        match (self.lighting.projection, met) {
+            (Projection::Even(g), _) => self.grid.area[index] as f64 * (g / UNITS / self.grid.volume()),
+            (Projection::OfLeaves, Some(met)) => {
+                let classes = &self.grid.by_normal[index * CLASSES..(index + 1) * CLASSES];
+                classes.iter().zip(met).map(|(units, met)| *units as f64 * met).sum()
+            }
+            (Projection::OfLeaves, None) => 0.0,
         }
-        let of_unit = 1.0 / UNITS / self.grid.volume();
-        let met = axes().map(|axis| met(axis, towards) * of_unit);
-        let of = |classes: &[u64]| classes.iter().zip(met).map(|(units, met)| *units as f64 * met).sum();
-        self.grid.by_normal.chunks_exact(CLASSES).map(of).collect()
+    }
+
+    /// The share of the light of a source that reaches a place.
+    fn share_of(&self, shadows: &Shadows, spot: Spot, source: &Source) -> f64 {
+        if !shadows.is_empty() && shadows.hide(self.grid.place(spot), source.towards) {
+            return 0.0;
+        }
+        let met = self.met(source.towards);
+        exp(-depth_towards(&self.grid, |index| self.extinction(index, met.as_ref()), spot, source.towards))
     }
 
     /// The share of open light at a place, by a ray to each source: exact within the voxels, slower than
     /// [`Lit::share_at`].
     pub fn share_by_rays(&self, place: Point) -> f64 {
-        let shadows = Shadows::of(&self.lighting.opaque, self.lighting.borders, self.lighting.origin);
-        let (even, spot) = (self.even_extinction(), self.grid.spot(place));
-        let one = |source: &Source| {
-            let extinction = self.extinction(&even, source.towards);
-            source.weight * share_of(&self.grid, &extinction, &shadows, (spot, source))
-        };
-        self.sources.iter().map(one).sum()
+        let (shadows, spot) = (self.shadows(), self.grid.spot(place));
+        self.sources.iter().map(|source| source.weight * self.share_of(&shadows, spot, source)).sum()
     }
 
     /// The mean share of open light on a rectangle of level ground, by rays from `count` × `count` places.
     pub fn share_of_ground(&self, [low, high]: [[f64; 2]; 2], height: f64, count: u32) -> f64 {
-        let shadows = Shadows::of(&self.lighting.opaque, self.lighting.borders, self.lighting.origin);
-        let even = self.even_extinction();
+        let shadows = self.shadows();
         let count = count.max(1);
         let place = |cell: u32| {
             let along = |k: usize, cell: u32| low[k] + (high[k] - low[k]) * (f64::from(cell) + 0.5) / f64::from(count);
             self.grid.spot([along(0, cell % count), along(1, cell / count), height])
         };
         let one = |source: &Source| {
-            let extinction = self.extinction(&even, source.towards);
-            let share = |cell| share_of(&self.grid, &extinction, &shadows, (place(cell), source));
+            let share = |cell| self.share_of(&shadows, place(cell), source);
             source.weight * (0..count * count).map(share).sum::<f64>()
         };
         let sums: Vec<f64> = self.sources.par_iter().map(one).collect();
@@ -198,12 +205,24 @@ impl Field {
     }
 }
 
-/// The share of the light of a source that reaches a place.
-fn share_of(grid: &Grid, extinction: &[f64], shadows: &Shadows, (spot, source): (Spot, &Source)) -> f64 {
-    if !shadows.is_empty() && shadows.hide(grid.place(spot), source.towards) {
-        return 0.0;
-    }
-    exp(-depth_towards(grid, extinction, spot, source.towards))
+/// Adds the light of sources to the sums of the wanted voxels, in their order in each, and what becomes of it.
+fn add(sums: &mut [[f64; 2]], balance: Balance, sources: &[Source], shone: &[Shone]) -> Balance {
+    // Light across a beam of 1 m² falls on 1/sine m² of level ground.
+    let on_ground = |source: &Source| source.weight / source.towards[2];
+    let scale = |(source, shone): (&Source, &Shone)| (source.weight, on_ground(source) * shone.section);
+    let scales: Vec<(f64, f64)> = sources.iter().zip(shone).map(scale).collect();
+    sums.par_iter_mut().enumerate().with_min_len(FEWEST_VOXELS).for_each(|(voxel, [light, kept])| {
+        for (shone, (of_light, of_kept)) in shone.iter().zip(&scales) {
+            let [share, lost] = shone.along[voxel];
+            *light += of_light * share;
+            *kept += of_kept * lost;
+        }
+    });
+    sources.iter().zip(shone).fold(balance, |balance, (source, shone)| {
+        let Balance { sent, kept, stopped, passed } = shone.balance;
+        let [sent, kept, stopped, passed] = [sent, kept, stopped, passed].map(|of| of * on_ground(source));
+        balance.with(Balance { sent, kept, stopped, passed })
+    })
 }
 
 impl Lit for Field {

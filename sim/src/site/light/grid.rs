@@ -146,6 +146,14 @@ impl Grid {
         self.area[index] > 0 || self.marked[index / 64] & (1 << (index % 64)) != 0
     }
 
+    /// Of eight voxels along X, one bit each, whether their light is wanted.
+    #[inline]
+    pub(super) fn wanted_in_row(&self, row: usize) -> u8 {
+        let marked = self.marked[row / 8] >> (8 * (row % 8));
+        let with_leaves = |bits: u8, (bit, area): (usize, &u64)| bits | (u8::from(*area > 0) << bit);
+        self.area[row * 8..row * 8 + 8].iter().enumerate().fold(marked as u8, with_leaves)
+    }
+
     /// Adds all of another grid of the same plot.
     pub fn join(&mut self, other: &Self) {
         for (brick, place) in other.bricks.iter().enumerate() {
@@ -230,7 +238,9 @@ impl Grid {
             if from.is_empty() {
                 return Vec::new();
             }
-            order.iter().flat_map(|&brick| from[brick * each..(brick + 1) * each].iter().copied()).collect()
+            let mut sorted = Vec::with_capacity(from.len());
+            order.iter().for_each(|&brick| sorted.extend_from_slice(&from[brick * each..(brick + 1) * each]));
+            sorted
         };
         (self.area, self.by_normal) = (sorted(&self.area, VOXELS), sorted(&self.by_normal, VOXELS * CLASSES));
         self.marked = sorted(&self.marked, WORDS);

@@ -45,9 +45,12 @@ pub fn each_beam(grid: &Grid, source: &Source, top: f64, show: &mut dyn FnMut(&B
     if grid.repeats() { of_plot(grid, source, top, show) } else { on_open_ground(grid, source, show) }
 }
 
-fn shift_of(row: i64) -> f64 {
+/// What a row of beams is shifted by, as a share of the distance of two beams.
+pub(super) fn shift_of(row: i64) -> f64 {
     let turned = row as f64 * GOLDEN;
-    turned - turned.floor()
+    let whole = turned as i64 as f64;
+    // The next whole number below, without the call that `floor` is on machines that have no instruction for it.
+    turned - if whole > turned { whole - 1.0 } else { whole }
 }
 
 /// The directions across a source, level first.

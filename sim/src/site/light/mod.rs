@@ -16,11 +16,14 @@ pub mod canopy;
 pub mod field;
 pub mod grid;
 pub mod lattice;
+pub mod loss;
 pub mod normals;
 pub mod shadow;
 pub mod sky;
 pub mod spot;
 pub mod sun;
+pub mod sweep;
+pub mod wanted;
 
 #[cfg(test)]
 mod tests_balance;
@@ -28,6 +31,8 @@ mod tests_balance;
 mod tests_canopy;
 #[cfg(test)]
 mod tests_sphere;
+#[cfg(test)]
+mod tests_sweep;
 #[cfg(test)]
 mod tests_wall;
 

@@ -9,7 +9,7 @@ use crate::shape::Point;
 /// The parts of a voxel's edge to which places are rounded, as a power of 2.
 const FINE_BITS: u32 = 20;
 /// The parts of a voxel's edge to which places are rounded.
-const FINE: f64 = (1 << FINE_BITS) as f64;
+pub(super) const FINE: f64 = (1 << FINE_BITS) as f64;
 
 /// A place by its voxel, and how far it lies from the low corner of it, in edges of a voxel, from 0 to 1.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -36,7 +36,7 @@ impl Grid {
     /// A place from the corner of the plot, in fine parts of a voxel's edge. What is no number is at the corner.
     fn fine(&self, place: Point) -> [i64; 3] {
         let most = f64::from(FARTHEST * EDGE) * FINE;
-        [0, 1, 2].map(|k| ((place[k] - self.origin[k]) / self.edges[k] * FINE).round().clamp(-most, most) as i64)
+        [0, 1, 2].map(|k| rounded(((place[k] - self.origin[k]) / self.edges[k] * FINE).clamp(-most, most)) as i64)
     }
 
     /// The place of a spot, metres.
@@ -59,9 +59,28 @@ impl Grid {
     }
 }
 
+/// The nearest whole number, the farther from 0 of two; for less than 2⁵². Without the call that `round` is on machines
+/// that have no instruction for it.
+#[inline(always)]
+pub(super) fn rounded(number: f64) -> f64 {
+    // The largest number below ½: what lies just below a half stays below.
+    (number + 0.499_999_999_999_999_94_f64.copysign(number)) as i64 as f64
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn whole_numbers_are_the_nearest() {
+        let near = [0.0, 0.3, 0.499_999_999_999_999_94, 0.5, 0.500_000_000_000_000_1, 0.7, 1.0];
+        for whole in [0.0, 1.0, 2.0, 3.0, 1e6 + 1.0, 1e12, 8_796_093_022_207.0] {
+            for number in near.map(|near| whole + near) {
+                assert_eq!((rounded(number), rounded(-number)), (number.round(), -number.round()), "{number}");
+            }
+        }
+        assert_eq!(rounded(f64::NAN), 0.0);
+    }
     use crate::site::light::Lighting;
 
     /// Places on the faces of voxels and anywhere, at once and a whole number of voxels farther, where they are rounded

@@ -95,6 +95,12 @@ impl Beside {
         !self.stems.is_empty()
     }
 
+    /// Whether a stem that is known is nearer than `reach` to a point.
+    pub fn any_within(&self, point: Point, reach: f64) -> bool {
+        let point = Vector::of(point);
+        self.stems.iter().any(|stem| stem.distance(point) < reach)
+    }
+
     /// Where the internode from one point to another comes nearer to a stem than `room` and than it began, by the most;
     /// `None` where it does not. `left` tells the side of a stem that it meets in its middle.
     pub fn touched(&self, [from, end]: [Point; 2], room: f64, left: bool) -> Option<Touch> {

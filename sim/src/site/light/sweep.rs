@@ -1,0 +1,294 @@
+//! The light of one source on open ground, voxel by voxel as the light meets them: what lies between them costs nothing.
+//!
+//! The beams are those of `lattice`: an edge of a voxel apart across their way, each row shifted by the golden ratio.
+//! So of a voxel, which is at most √3 edges wide, at most two rows of them are met and two beams of each row. These four
+//! are asked at once for their ways in the voxel, the longest common stretch of its three pairs of faces (Kay & Kajiya
+//! 1986, "Ray tracing complex scenes"); one that passes beside it has none. Voxels are taken in an order in which no
+//! beam comes to one before those that lie in front of it, and beams keep what is left of them from voxel to voxel.
+//! Absent: plots that repeat and opaque shapes, for which beams are followed one by one (`beam`).
+
+use super::beam::Shone;
+use super::grid::{BITS, EDGE, Grid};
+use super::lattice::{across, shift_of};
+use super::loss::{Pair, lost_of_each, plus, times};
+use super::spot::{FINE, rounded};
+use super::wanted::Wanted;
+use super::{Balance, Source};
+use crate::shape::Point;
+
+/// The beams along an edge of a tile, as a power of 2.
+const TILE: u32 = 3;
+/// The beams along an edge of a tile.
+const SIDE: usize = 1 << TILE;
+/// The tiles along an edge about a brick: it is at most 8 √3 edges wide and meets three; a power of 2.
+const ABOUT: usize = 4;
+/// The beams along an edge about a brick.
+const BEAMS: usize = ABOUT * SIDE;
+/// A number so small that what is divided by it lies beyond all voxels.
+const LEVEL: f64 = 1e-12;
+
+/// The places of voxels along an edge of a brick.
+const PLACES: [f64; EDGE as usize] = [0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0];
+
+/// One beam.
+#[derive(Debug, Clone, Copy)]
+struct Ray {
+    /// Where it lies, as far beyond its column and its row.
+    at: Pair,
+    /// What is left of it; it began with 1.
+    light: f64,
+}
+
+/// How a source looks at voxels, in edges of a voxel.
+struct View {
+    /// Across the light, level first.
+    axes: [Point; 2],
+    /// Half the width of a voxel along each.
+    half: [f64; 2],
+    /// By how much a beam comes later to the middle between each pair of faces for each edge that it lies aside, and
+    /// above; and half the way between each pair of faces; metres.
+    faces: [[f64; 3]; 3],
+}
+
+/// The beams of a source that may meet leaves, tile by tile; the first tile is met by nothing.
+struct Beams {
+    view: View,
+    rays: Vec<Ray>,
+    places: Vec<[i32; 2]>,
+    table: Vec<u32>,
+}
+
+/// Two beams of a row that may meet a voxel.
+#[derive(Clone, Copy)]
+struct Row {
+    /// Their places among all beams.
+    places: [usize; 2],
+    /// What is left of each.
+    light: Pair,
+    /// Their ways in the voxel, metres.
+    ways: Pair,
+}
+
+/// The beams about the voxels of one brick.
+struct About {
+    /// The first beam of each tile, in rows.
+    tiles: [u32; ABOUT * ABOUT],
+    /// The middle of the first voxel of the brick, in beams from the first of the first tile.
+    middle: [f64; 2],
+    /// What each row is shifted by.
+    shifts: [f64; BEAMS],
+}
+
+/// Sends the beams of a source through the wanted voxels of a grid on open ground, which have these extinctions, 1/m.
+pub fn shine(grid: &Grid, wanted: &Wanted, extinction: &[f64], source: &Source) -> Shone {
+    let edge = grid.edges[0];
+    let mut beams = Beams::of(source, edge);
+    let mut along = vec![[0.0; 2]; extinction.len()];
+    let way = source.towards.map(|x| -x);
+    let mut kept = 0.0;
+    for &brick in wanted.order(way) {
+        let Some(filled) = wanted.box_of(brick as usize) else { continue };
+        let about = beams.about(grid.bricks[brick as usize], filled);
+        wanted.each_of(brick as usize, way, |voxel, number| {
+            let (sums, lost) = beams.cross(&about, voxel, extinction[number]);
+            along[number] = sums;
+            kept += lost;
+        });
+    }
+    let section = edge * edge;
+    let (sent, passed) = beams.sent_and_passed();
+    let [sent, kept, passed] = [sent, kept, passed].map(|of| of * section);
+    Shone { along, balance: Balance { sent, kept, stopped: 0.0, passed }, section }
+}
+
+impl View {
+    fn of(source: &Source, edge: f64) -> Self {
+        let axes = across(source.towards);
+        let half = axes.map(|axis| 0.5 * axis.iter().map(|share| share.abs()).sum::<f64>());
+        // Along a level axis a beam is between the faces everywhere or nowhere.
+        let way = source.towards.map(|x| if x.abs() < LEVEL { LEVEL } else { -x });
+        let face = |k: usize| [-axes[0][k] / way[k], -axes[1][k] / way[k], 0.5 / way[k].abs()].map(|of| of * edge);
+        let faces = [0, 1, 2].map(face);
+        Self { axes, half, faces }
+    }
+
+    /// A place, in edges of a voxel, as the light sees it.
+    fn seen(&self, place: Point) -> [f64; 2] {
+        self.axes.map(|axis| axis[0] * place[0] + axis[1] * place[1] + axis[2] * place[2])
+    }
+}
+
+impl Beams {
+    fn of(source: &Source, edge: f64) -> Self {
+        let beyond = Ray { at: [1e9; 2], light: 0.0 };
+        let (rays, places) = (vec![beyond; SIDE * SIDE], vec![[i32::MIN; 2]]);
+        Self { view: View::of(source, edge), rays, places, table: vec![0; 64] }
+    }
+
+    /// All beams that were sent, and what is left of them.
+    fn sent_and_passed(&self) -> (f64, f64) {
+        let sent = &self.rays[SIDE * SIDE..];
+        (sent.len() as f64, sent.iter().map(|ray| ray.light).sum())
+    }
+
+    /// The beams about the voxels of a brick in a box.
+    fn about(&mut self, brick: [i32; 3], filled: [[u8; 3]; 2]) -> About {
+        let corners = filled.map(|corner| corner.map(f64::from));
+        let first = brick.map(|place| f64::from(place << BITS) + 0.5);
+        let seen = self.view.seen(first);
+        let mut ends = [[0_i64; 2]; 2];
+        for (k, axis) in self.view.axes.into_iter().enumerate() {
+            let (mut below, mut above) = (0.0, 0.0);
+            for of in 0..3 {
+                let [one, other] = corners.map(|corner| axis[of] * corner[of]);
+                (below, above) = (below + one.min(other), above + one.max(other));
+            }
+            // Rows are shifted by up to 1 in the direction of the first axis.
+            let shift = [1.0, 0.0][k];
+            let low = seen[k] + below - self.view.half[k] - 0.5 - shift;
+            let high = seen[k] + above + self.view.half[k] - 0.5;
+            ends[k] = [low, high].map(|end| end.floor() as i64 >> TILE);
+        }
+        let [[left, right], [low, high]] = ends;
+        let (mut tiles, mut shifts) = ([0; ABOUT * ABOUT], [0.0; BEAMS]);
+        for (row, tiles) in (low..=high).zip(tiles.chunks_exact_mut(ABOUT)) {
+            (left..=right)
+                .zip(tiles)
+                .for_each(|(column, tile)| *tile = self.tile([column as i32, row as i32]) << (2 * TILE));
+        }
+        for (shift, row) in shifts.iter_mut().zip(low << TILE..(high + 1) << TILE) {
+            *shift = shift_of(row);
+        }
+        let middle = [seen[0] - (left << TILE) as f64, seen[1] - (low << TILE) as f64];
+        About { tiles, middle, shifts }
+    }
+
+    /// The number of a tile, which is made if need be.
+    fn tile(&mut self, place: [i32; 2]) -> u32 {
+        let mut slot = self.slot(place);
+        if self.table[slot] == 0 {
+            if self.places.len() * 2 > self.table.len() {
+                self.table = vec![0; self.table.len() * 4];
+                for tile in 1..self.places.len() {
+                    let slot = self.slot(self.places[tile]);
+                    self.table[slot] = tile as u32;
+                }
+                slot = self.slot(place);
+            }
+            self.table[slot] = self.places.len() as u32;
+            self.places.push(place);
+            self.add_tile(place);
+        }
+        self.table[slot]
+    }
+
+    /// Where a tile is in the table, or where there is room for it.
+    fn slot(&self, [column, row]: [i32; 2]) -> usize {
+        let mask = self.table.len() - 1;
+        let packed = u64::from(column as u32) ^ (u64::from(row as u32) << 32);
+        let mut slot = (packed.wrapping_mul(0x9e37_79b9_7f4a_7c15) >> 32) as usize & mask;
+        while self.table[slot] != 0 && self.places[self.table[slot] as usize] != [column, row] {
+            slot = (slot + 1) & mask;
+        }
+        slot
+    }
+
+    /// The beams of a tile of the lattice. They begin at places that are rounded as all places are.
+    fn add_tile(&mut self, place: [i32; 2]) {
+        let [left, low] = place.map(|place| i64::from(place) << TILE);
+        for row in low..low + SIDE as i64 {
+            let (v, shift) = (row as f64 + 0.5, 0.5 + shift_of(row));
+            for column in left..left + SIDE as i64 {
+                let u = column as f64 + shift;
+                let begins = [0, 1, 2].map(|k| self.view.axes[0][k] * u + self.view.axes[1][k] * v);
+                let off = self.view.seen(begins.map(|exact| rounded(exact * FINE) / FINE - exact));
+                self.rays.push(Ray { at: plus([shift, 0.5], off), light: 1.0 });
+            }
+        }
+    }
+
+    /// Lets a voxel, by its place in the brick, with this extinction keep of the beams that cross it: the intensity
+    /// along their ways, summed over the ways, and the ways, metres; and what they lose.
+    #[inline(always)]
+    fn cross(&mut self, about: &About, voxel: [usize; 3], k: f64) -> (Pair, f64) {
+        let View { axes: [level, upward], half, .. } = &self.view;
+        let [x, y, z] = voxel.map(|place| PLACES[place % PLACES.len()]);
+        let u = (about.middle[0] + (level[1] * y + level[2] * z)) + level[0] * x;
+        let v = (about.middle[1] + (upward[1] * y + upward[2] * z)) + upward[0] * x;
+        // The first row that may meet it.
+        let (above, row) = nearest(v - half[1]);
+        let first = self.row(about, row, [u, above - v]);
+        let second = self.row(about, row + 1, [u, above + 1.0 - v]);
+        let ways = plus(first.ways, second.ways);
+        let of_ways = ways[0] + ways[1];
+        if k <= 0.0 {
+            let sums = plus(times(first.ways, first.light), times(second.ways, second.light));
+            return ([sums[0] + sums[1], of_ways], 0.0);
+        }
+        let [one, other] = lost_of_each([first, second].map(|row| times(row.ways, [k; 2])));
+        let (one, other) = (times(first.light, one), times(second.light, other));
+        for (row, lost) in [(first, one), (second, other)] {
+            self.rays[row.places[0]].light = row.light[0] - lost[0];
+            self.rays[row.places[1]].light = row.light[1] - lost[1];
+        }
+        let lost = plus(one, other);
+        let lost = lost[0] + lost[1];
+        ([lost / k, of_ways], lost)
+    }
+
+    /// The two beams of a row that may meet the voxel whose middle is seen at `u`, so far below the row.
+    #[inline(always)]
+    fn row(&self, about: &About, row: usize, [u, above]: [f64; 2]) -> Row {
+        let (aside, column) = nearest(u - self.view.half[0] - about.shifts[row % BEAMS]);
+        let aside = aside - u;
+        let places = [about.place(row, column), about.place(row, column + 1)];
+        let [one, other] = [&self.rays[places[0]], &self.rays[places[1]]];
+        let light = [one.light, other.light];
+        let aside = plus([one.at[0], other.at[0]], [aside, aside + 1.0]);
+        let above = plus([one.at[1], other.at[1]], [above, above]);
+        Row { places, light, ways: self.view.ways(aside, above) }
+    }
+}
+
+impl View {
+    /// The ways in a voxel, metres, of two beams that lie so far aside from its middle and above it.
+    #[inline(always)]
+    fn ways(&self, aside: Pair, above: Pair) -> Pair {
+        let stretch = |[by_aside, by_above, half]: [f64; 3]| {
+            let middle = plus(times(aside, [by_aside; 2]), times(above, [by_above; 2]));
+            (plus(middle, [-half; 2]), plus(middle, [half; 2]))
+        };
+        let [(a, d), (b, e), (c, f)] = self.faces.map(stretch);
+        let (enters, leaves) = (larger(larger(a, b), c), smaller(smaller(d, e), f));
+        larger([leaves[0] - enters[0], leaves[1] - enters[1]], [0.0; 2])
+    }
+}
+
+impl About {
+    /// The place of a beam among all.
+    #[inline(always)]
+    fn place(&self, row: usize, column: usize) -> usize {
+        let mask = SIDE - 1;
+        let tile = self.tiles[((row >> TILE) * ABOUT + (column >> TILE)) % (ABOUT * ABOUT)];
+        tile as usize | ((row & mask) << TILE) | (column & mask)
+    }
+}
+
+/// The nearest whole number, of numbers that are not below 0 nor above those beside a brick.
+#[inline(always)]
+fn nearest(number: f64) -> (f64, usize) {
+    // From 2⁵² on numbers are whole, so that the sum is rounded to one; its lowest bits are the number.
+    const WHOLE: f64 = 4_503_599_627_370_496.0;
+    let sum = number + WHOLE;
+    (sum - WHOLE, sum.to_bits() as usize & (2 * BEAMS - 1))
+}
+
+#[inline(always)]
+fn larger(one: Pair, other: Pair) -> Pair {
+    [0, 1].map(|lane| if one[lane] > other[lane] { one[lane] } else { other[lane] })
+}
+
+#[inline(always)]
+fn smaller(one: Pair, other: Pair) -> Pair {
+    [0, 1].map(|lane| if one[lane] < other[lane] { one[lane] } else { other[lane] })
+}
