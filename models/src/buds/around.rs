@@ -117,8 +117,8 @@ impl<'a> Around<'a> {
         self.free > reach
     }
 
-    /// Whether no stem is within `reach` of the tip; those that are, and some that are not, are known then. What the bud
-    /// has felt turns its next internode wherever some stem is known.
+    /// Whether no stem is within `reach` of the tip; those that are, and some that are not, are known then. What the
+    /// bud has felt turns its next internode wherever some stem is known.
     fn is_far_from_stems(&mut self, reach: f64) -> bool {
         let (tip, more) = (self.tip(), if self.ahead.is_none() { self.grown } else { 0.0 });
         let Some(stems) = self.stems else { return true };

@@ -3,8 +3,7 @@
 //! Sources are followed side by side, each by one thread from its first beam to its last, and their sums are added in
 //! the order of the sources: so no number of threads shows. Of a source a voxel has the share of its light that beams
 //! have in it on average, and keeps what they leave there. A voxel that the beams of a source miss is asked at its
-//! middle. Absent: beams (`sweep`, `beam`), and what a canopy is
-//! (`canopy`).
+//! middle. Absent: beams (`sweep`, `beam`), and what a canopy is (`canopy`).
 
 use super::beam::{self, Shone, depth_towards};
 use super::canopy::{Canopy, Piece};
@@ -152,8 +151,8 @@ impl Field {
         [0, 1, 2].map(|k| (place[k] << BITS) + inner[k])
     }
 
-    /// How much a beam meets of a unit of leaf area of each class of normals, by the volume of a voxel, 1/m; `None` where
-    /// normals do not matter.
+    /// How much a beam meets of a unit of leaf area of each class of normals, by the volume of a voxel, 1/m; `None`
+    /// where normals do not matter.
     fn met(&self, towards: Point) -> Option<[f64; CLASSES]> {
         let of_unit = 1.0 / UNITS / self.grid.volume();
         let of_leaves = self.lighting.projection == Projection::OfLeaves;

@@ -34,8 +34,8 @@ fn series(x: Pair) -> Pair {
     times(x, plus(low, times(fourth, high)))
 }
 
-/// [`lost`] of twice two numbers. Those that are not large are found without an exponential: of 2 x is lost what is lost of x,
-/// and the same share of the rest.
+/// [`lost`] of twice two numbers. Those that are not large are found without an exponential: of 2 x is lost what is
+/// lost of x, and the same share of the rest.
 #[inline(always)]
 pub fn lost_of_each(x: [Pair; 2]) -> [Pair; 2] {
     let [one, other] = x;

@@ -1,10 +1,11 @@
-//! The light of one source on open ground, voxel by voxel as the light meets them: what lies between them costs nothing.
+//! The light of one source on open ground, voxel by voxel as the light meets them: what lies between costs nothing.
 //!
 //! The beams are those of `lattice`: an edge of a voxel apart across their way, each row shifted by the golden ratio.
-//! So of a voxel, which is at most √3 edges wide, at most two rows of them are met and two beams of each row. These four
-//! are asked at once for their ways in the voxel, the longest common stretch of its three pairs of faces (Kay & Kajiya
-//! 1986, "Ray tracing complex scenes"); one that passes beside it has none. Voxels are taken in an order in which no
-//! beam comes to one before those that lie in front of it, and beams keep what is left of them from voxel to voxel.
+//! So of a voxel, which is at most √3 edges wide, at most two rows of them are met and two beams of each row. These
+//! four are asked at once for their ways in the voxel, the longest common stretch of its three pairs of faces (Kay &
+//! Kajiya 1986, "Ray tracing complex scenes"); one that passes beside it has none. Voxels are taken in an order in
+//! which no beam comes to one before those that lie in front of it, and beams keep what is left of them from voxel to
+//! voxel.
 //! Absent: plots that repeat and opaque shapes, for which beams are followed one by one (`beam`).
 
 use super::beam::Shone;

@@ -79,8 +79,8 @@ impl Wanted {
         &self.orders[usize::from(way[0] < 0.0) | (usize::from(way[1] < 0.0) << 1)]
     }
 
-    /// Shows the wanted voxels of a brick in an order in which light along a way that goes down meets them: their places
-    /// in the brick, and their numbers.
+    /// Shows the wanted voxels of a brick in an order in which light along a way that goes down meets them: their
+    /// places in the brick, and their numbers.
     #[inline]
     pub fn each_of(&self, brick: usize, way: Point, mut show: impl FnMut([usize; 3], usize)) {
         let falls = [way[0] < 0.0, way[1] < 0.0];
