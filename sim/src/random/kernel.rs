@@ -5,7 +5,7 @@
 
 use super::block::{Block, Name, block};
 #[cfg(target_arch = "x86_64")]
-use super::x86::{avx2, sse2};
+use super::x86::{avx2, avx512, sse2};
 
 /// Code that makes blocks, which this machine can run: one is made by [`Kernel::all`] alone, or by [`Kernel::fastest`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -22,6 +22,9 @@ enum Code {
     /// Eight at once.
     #[cfg(target_arch = "x86_64")]
     Avx2,
+    /// Twelve at once.
+    #[cfg(target_arch = "x86_64")]
+    Avx512,
 }
 
 impl Kernel {
@@ -29,7 +32,13 @@ impl Kernel {
     #[inline]
     pub fn fastest() -> Self {
         #[cfg(target_arch = "x86_64")]
-        let code = if is_x86_feature_detected!("avx2") { Code::Avx2 } else { Code::Sse2 };
+        let code = if is_x86_feature_detected!("avx512f") && is_x86_feature_detected!("avx512vl") {
+            Code::Avx512
+        } else if is_x86_feature_detected!("avx2") {
+            Code::Avx2
+        } else {
+            Code::Sse2
+        };
         #[cfg(not(target_arch = "x86_64"))]
         let code = Code::Scalar;
         Self(code)
@@ -40,8 +49,11 @@ impl Kernel {
     pub fn all() -> Vec<Self> {
         let mut all = vec![Self(Code::Scalar)];
         #[cfg(target_arch = "x86_64")]
-        all.push(Self(Code::Sse2));
-        all.extend((!all.contains(&Self::fastest())).then(Self::fastest));
+        {
+            all.push(Self(Code::Sse2));
+            all.extend(is_x86_feature_detected!("avx2").then_some(Self(Code::Avx2)));
+            all.extend((!all.contains(&Self::fastest())).then(Self::fastest));
+        }
         all
     }
 
@@ -52,13 +64,15 @@ impl Kernel {
         if self.0 == Code::Scalar {
             return blocks.iter_mut().zip(counter..).for_each(|(into, counter)| *into = block(name, counter));
         }
-        // SAFETY: all three are safe code without a pointer; a call asks only that the machine has their instructions.
-        // SSE2 is part of x86-64 itself. `Code::Avx2` is made in `fastest` alone, after the processor has said that it
-        // has AVX2 and the system that it keeps the registers; the type is private to this file.
+        // SAFETY: all four are safe code without a pointer; a call asks only that the machine has their instructions.
+        // SSE2 is part of x86-64 itself. `Code::Avx2` and `Code::Avx512` are made in `fastest` and `all` alone, after
+        // the processor has said that it has them and the system that it keeps the registers; the type is private to
+        // this file.
         #[cfg(target_arch = "x86_64")]
         unsafe {
             match (self.0, blocks) {
                 (_, [one]) => sse2::one(name, counter, one),
+                (Code::Avx512, blocks) => avx512::fill(name, counter, blocks),
                 (Code::Avx2, blocks) => avx2::fill(name, counter, blocks),
                 (_, blocks) => sse2::fill(name, counter, blocks),
             }

@@ -8,7 +8,7 @@
 //!
 //! The words are those of `rand_chacha`'s `ChaCha8Rng` with the same seed and stream, word for word, which tests hold.
 //! That crate makes four blocks at each seek. Growth by the clock needs a few words of each of many streams, so one
-//! block is made at a time there; a long read makes eight at once ([`Stream::read`]).
+//! block is made at a time there; a long read makes many at once ([`Stream::read`]).
 
 mod block;
 mod kernel;

@@ -1,8 +1,9 @@
-//! Several blocks of ChaCha8 at once, in the registers of x86-64: four with SSE2, eight with AVX2.
+//! Several blocks of ChaCha8 at once, in the registers of x86-64: four with SSE2, eight with AVX2, twelve with AVX-512.
 //!
-//! A register holds a row of the state as in `block`: of one block with SSE2, of two with AVX2. So a step of the rounds
-//! is one instruction for a row, and while it lasts the processor goes on with the rows of other blocks. The words come
-//! out in their order: nothing is transposed, whatever the number of blocks.
+//! A register holds a row of the state as in `block`: of one block with SSE2, of two with the others, which differ in
+//! their rotations and in the number of their registers. So a step of the rounds is one instruction for a row, and
+//! while it lasts the processor goes on with the rows of other blocks. The words come out in their order: nothing is
+//! transposed, whatever the number of blocks.
 //!
 //! No pointer is used: registers become words by `bytemuck`, and slices are cut by their lengths. A function here may
 //! be called only where the machine has the instructions that it names, which `kernel` asks.
@@ -138,63 +139,71 @@ pub(super) mod sse2 {
     }
 }
 
-/// A row of two blocks a register, eight blocks at once.
+/// The functions of a module with a row of two blocks a register: its instructions, the registers of a row that are
+/// made side by side, and fewer of them for the last blocks.
+macro_rules! two_blocks_a_register {
+    ($features:literal, $groups:literal, $($few:literal),*) => {
+        use std::arch::x86_64::{
+            __m256i, _mm256_add_epi32 as add, _mm256_permute2x128_si256 as halves, _mm256_shuffle_epi32 as turned,
+            _mm256_xor_si256 as xor,
+        };
+
+        /// Makes the blocks of a stream from `counter` on. The last few are made aside, perhaps with some that are
+        /// thrown away: two blocks take as long as one.
+        #[target_feature(enable = $features)]
+        pub fn fill(name: &Name, mut counter: u64, blocks: &mut [Block]) {
+            let (whole, rest) = blocks.split_at_mut(blocks.len() / (2 * $groups) * (2 * $groups));
+            let (pairs, _) = whole.as_chunks_mut::<2>();
+            for many in pairs.as_chunks_mut::<$groups>().0 {
+                make(name, counter, many);
+                counter += 2 * $groups;
+            }
+            match rest.len().div_ceil(2) {
+                0 => {}
+                $(..=$few => aside::<$few>(name, counter, rest),)*
+                _ => aside::<$groups>(name, counter, rest),
+            }
+        }
+
+        #[inline]
+        #[target_feature(enable = $features)]
+        fn aside<const GROUPS: usize>(name: &Name, counter: u64, blocks: &mut [Block]) {
+            let mut made = [[[0; WORDS]; 2]; GROUPS];
+            make(name, counter, &mut made);
+            blocks.copy_from_slice(&made.as_flattened()[..blocks.len()]);
+        }
+
+        #[inline]
+        #[target_feature(enable = $features)]
+        fn make<const GROUPS: usize>(name: &Name, counter: u64, blocks: &mut [[Block; 2]; GROUPS]) {
+            let start: [__m256i; 3] = name.rows().map(|row| cast([row, row]));
+            let last: [__m256i; GROUPS] = std::array::from_fn(|group| {
+                let first = counter.wrapping_add(2 * group as u64);
+                cast([name.last_row(first), name.last_row(first.wrapping_add(1))])
+            });
+            let ([mut a, mut b, mut c], mut d) = (start.map(|row| [row; GROUPS]), last);
+            rounds!(a, b, c, d);
+            for group in 0..GROUPS {
+                let [a, b] = [add(a[group], start[0]), add(b[group], start[1])];
+                let [c, d] = [add(c[group], start[2]), add(d[group], last[group])];
+                let first = [halves::<LOWER>(a, b), halves::<LOWER>(c, d)];
+                let second = [halves::<UPPER>(a, b), halves::<UPPER>(c, d)];
+                blocks[group] = [cast(first), cast(second)];
+            }
+        }
+    };
+}
+
+/// The lower halves of two registers, and the upper ones.
+const LOWER: i32 = 0x20;
+const UPPER: i32 = 0x31;
+
+/// Eight blocks at once.
 pub(super) mod avx2 {
     use super::*;
-    use std::arch::x86_64::{
-        __m256i, _mm256_add_epi32 as add, _mm256_or_si256 as or, _mm256_permute2x128_si256 as halves,
-        _mm256_shuffle_epi8, _mm256_shuffle_epi32 as turned, _mm256_slli_epi32, _mm256_srli_epi32,
-        _mm256_xor_si256 as xor,
-    };
+    use std::arch::x86_64::{_mm256_or_si256 as or, _mm256_shuffle_epi8, _mm256_slli_epi32, _mm256_srli_epi32};
 
-    /// The lower halves of two registers, and the upper ones.
-    const LOWER: i32 = 0x20;
-    const UPPER: i32 = 0x31;
-
-    /// Makes the blocks of a stream from `counter` on. The last few are made aside, perhaps with some that are thrown
-    /// away: two blocks take as long as one.
-    #[target_feature(enable = "avx2")]
-    pub fn fill(name: &Name, mut counter: u64, blocks: &mut [Block]) {
-        let (whole, rest) = blocks.split_at_mut(blocks.len() / 8 * 8);
-        let (pairs, _) = whole.as_chunks_mut::<2>();
-        for eight in pairs.as_chunks_mut::<4>().0 {
-            make(name, counter, eight);
-            counter += 8;
-        }
-        match rest.len() {
-            0 => {}
-            1 | 2 => aside::<1>(name, counter, rest),
-            3 | 4 => aside::<2>(name, counter, rest),
-            _ => aside::<4>(name, counter, rest),
-        }
-    }
-
-    #[inline]
-    #[target_feature(enable = "avx2")]
-    fn aside<const GROUPS: usize>(name: &Name, counter: u64, blocks: &mut [Block]) {
-        let mut made = [[[0; WORDS]; 2]; GROUPS];
-        make(name, counter, &mut made);
-        blocks.copy_from_slice(&made.as_flattened()[..blocks.len()]);
-    }
-
-    #[inline]
-    #[target_feature(enable = "avx2")]
-    fn make<const GROUPS: usize>(name: &Name, counter: u64, blocks: &mut [[Block; 2]; GROUPS]) {
-        let start: [__m256i; 3] = name.rows().map(|row| cast([row, row]));
-        let last: [__m256i; GROUPS] = std::array::from_fn(|group| {
-            let first = counter.wrapping_add(2 * group as u64);
-            cast([name.last_row(first), name.last_row(first.wrapping_add(1))])
-        });
-        let ([mut a, mut b, mut c], mut d) = (start.map(|row| [row; GROUPS]), last);
-        rounds!(a, b, c, d);
-        for group in 0..GROUPS {
-            let [a, b] = [add(a[group], start[0]), add(b[group], start[1])];
-            let [c, d] = [add(c[group], start[2]), add(d[group], last[group])];
-            let first = [halves::<LOWER>(a, b), halves::<LOWER>(c, d)];
-            let second = [halves::<UPPER>(a, b), halves::<UPPER>(c, d)];
-            blocks[group] = [cast(first), cast(second)];
-        }
-    }
+    two_blocks_a_register!("avx2", 4, 1, 2);
 
     #[inline]
     #[target_feature(enable = "avx2")]
@@ -218,5 +227,38 @@ pub(super) mod avx2 {
     #[target_feature(enable = "avx2")]
     fn left_7(row: __m256i) -> __m256i {
         or(_mm256_slli_epi32::<7>(row), _mm256_srli_epi32::<25>(row))
+    }
+}
+
+/// Twelve blocks at once: AVX-512 rotates in one instruction, and has twice as many registers, of which half a one is
+/// used.
+pub(super) mod avx512 {
+    use super::*;
+    use std::arch::x86_64::_mm256_rol_epi32;
+
+    two_blocks_a_register!("avx512f,avx512vl", 6, 1, 2, 3);
+
+    #[inline]
+    #[target_feature(enable = "avx512f,avx512vl")]
+    fn left_16(row: __m256i) -> __m256i {
+        _mm256_rol_epi32::<16>(row)
+    }
+
+    #[inline]
+    #[target_feature(enable = "avx512f,avx512vl")]
+    fn left_12(row: __m256i) -> __m256i {
+        _mm256_rol_epi32::<12>(row)
+    }
+
+    #[inline]
+    #[target_feature(enable = "avx512f,avx512vl")]
+    fn left_8(row: __m256i) -> __m256i {
+        _mm256_rol_epi32::<8>(row)
+    }
+
+    #[inline]
+    #[target_feature(enable = "avx512f,avx512vl")]
+    fn left_7(row: __m256i) -> __m256i {
+        _mm256_rol_epi32::<7>(row)
     }
 }
