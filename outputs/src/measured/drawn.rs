@@ -68,6 +68,9 @@ struct Row {
 /// In words: a table that cannot be read, or a tick without rows.
 pub fn plants_of(run: &Run, tick: Option<Tick>) -> Result<(Tick, BTreeMap<u32, Plant>), String> {
     let (names, rows) = of_run(run, Table::Records, &COLUMNS)?;
+    if rows.is_empty() {
+        return Ok((tick.unwrap_or(0), BTreeMap::new()));
+    }
     let mut at = [usize::MAX; COLUMNS.len()];
     for (place, name) in at.iter_mut().zip(COLUMNS) {
         let found = names.iter().position(|known| known == name);

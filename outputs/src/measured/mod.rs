@@ -157,4 +157,14 @@ fn days(date: Date) -> i64 {
 }
 
 #[cfg(test)]
-mod tests;
+mod tests {
+    use super::*;
+
+    #[test]
+    fn days_are_those_of_the_calendar() {
+        let day = |year, month, day| days(Date { year, month, day, minute: None });
+        assert_eq!(day(2000, 3, 1) - day(2000, 2, 28), 2);
+        assert_eq!(day(1900, 3, 1) - day(1900, 2, 28), 1);
+        assert_eq!(day(2007, 12, 31) - day(2007, 7, 16), 168);
+    }
+}

@@ -91,6 +91,8 @@ impl Row {
         let is_seen = self.place.iter().chain(&self.direction).any(Option::is_some) || !lone_age;
         let (seen, any) = self.told();
         if any && is_seen {
+            // One observation is the rule: no room is left for more.
+            of.observations.reserve_exact(1);
             of.observations.push(seen);
         }
     }

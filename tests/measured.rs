@@ -1,10 +1,9 @@
 //! Measured plants in tables: what the file says is there, and what it does not say is null.
 
-use super::{Source, days, write};
-use crate::exchange::{Date, Incoming, Report, Units, by_word};
-use crate::read::Run;
-use crate::run_folder::Mode;
-use crate::tables::{Input, Table};
+use phytomer::outputs::exchange::{Incoming, Report, Units, by_word};
+use phytomer::outputs::measured::{Source, write};
+use phytomer::outputs::read::Run;
+use phytomer::outputs::{Input, Mode, Table};
 
 const TEXT: &str = "CODE:\tFORM-A\nCLASSES:\nP\t1\nAxis\t2\nGU\t3\nInternode\t4\nLeaf\t4\nDESCRIPTION:\nFEATURES:\nLength\tREAL\nDate\tDD/MM/YY\n\
     MTG:\nENTITY-CODE\t\tLength\tDate\n/P1\n^/Axis1/GU1/Internode1\t\t2\t01/02/2003\n*\t\t3\t01/03/2003\n\t+Leaf1\n\
@@ -35,7 +34,7 @@ fn taken(text: &str) -> (tempfile::TempDir, Run) {
 
 /// The cells of some columns of a table; an empty cell is null.
 fn cells(run: &Run, table: Table, columns: &[&str]) -> Vec<Vec<String>> {
-    let (names, rows) = crate::cells::of_run(run, table, columns).unwrap();
+    let (names, rows) = phytomer::outputs::cells::of_run(run, table, columns).unwrap();
     let at = |name: &&str| names.iter().position(|known| known == name).unwrap();
     rows.iter().map(|row| columns.iter().map(|name| row[at(name)].clone()).collect()).collect()
 }
@@ -94,12 +93,4 @@ fn dates_are_ticks_and_what_is_not_said_is_null() {
     assert!(summary.iter().all(|row| row.height_m.is_none()));
     assert_eq!(run.json()["resolved_scenario"]["measured"]["plants_without_places"], 2);
     assert_eq!(run.json()["inputs"][0]["sha256"], "00");
-}
-
-#[test]
-fn days_are_those_of_the_calendar() {
-    let day = |year, month, day| days(Date { year, month, day, minute: None });
-    assert_eq!(day(2000, 3, 1) - day(2000, 2, 28), 2);
-    assert_eq!(day(1900, 3, 1) - day(1900, 2, 28), 1);
-    assert_eq!(day(2007, 12, 31) - day(2007, 7, 16), 168);
 }
