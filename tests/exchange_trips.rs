@@ -189,7 +189,7 @@ fn orders(told: &str, one: &Description, other: &Description) {
 #[test]
 fn a_plot_becomes_a_scene_and_comes_back() {
     let folder = tempdir().unwrap();
-    let said = run(folder.path(), &["convert", "coffee_plot", "scene.ops", "--plot", "--age", "20"]).ending(0).stdout;
+    let said = run(folder.path(), &["convert", "wall", "scene.ops", "--plot", "--age", "20"]).ending(0).stdout;
     assert!(said.contains("scene.ops"), "{said}");
     let mut files = InMemory { main: fs::read(folder.path().join("scene.ops")).unwrap(), ..InMemory::default() };
     for entry in fs::read_dir(folder.path()).unwrap().flatten() {

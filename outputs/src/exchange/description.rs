@@ -360,6 +360,8 @@ impl Entity {
     /// The same to be changed; made where there is none.
     pub fn latest_mut(&mut self) -> &mut Observation {
         if self.observations.is_empty() {
+            // One observation is the rule: no room is left for more.
+            self.observations.reserve_exact(1);
             self.observations.push(Observation::default());
         }
         let last = self.observations.len() - 1;
