@@ -5,8 +5,10 @@
 
 mod around;
 mod attack;
+mod birth;
 mod bud;
 mod card;
+mod columns;
 mod compile;
 mod contact;
 mod cuts;
@@ -16,11 +18,16 @@ mod model;
 mod node;
 mod organ;
 pub mod params;
+mod plan;
+mod planned;
 mod record;
+mod site;
 #[cfg(test)]
 mod tests;
 #[cfg(test)]
 mod tests_chain;
+#[cfg(test)]
+mod tests_columns;
 #[cfg(test)]
 mod tests_contact;
 #[cfg(test)]
@@ -39,6 +46,8 @@ mod tests_light;
 mod tests_making;
 #[cfg(test)]
 mod tests_pests;
+#[cfg(test)]
+mod tests_random;
 #[cfg(test)]
 mod tests_replanting;
 #[cfg(test)]

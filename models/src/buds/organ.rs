@@ -4,7 +4,7 @@
 //! fall of branches, with which organs fall too (`sim::shed`).
 
 use super::attack::first_end;
-use super::compile::{LeafFall, PLACE_OF_EATEN_FLOWERS, PLACE_OF_EATEN_FRUITS, PLACE_OF_EATEN_LEAVES};
+use super::compile::{LeafFall, NodeLaws, PLACE_OF_EATEN_FLOWERS, PLACE_OF_EATEN_FRUITS, PLACE_OF_EATEN_LEAVES};
 use super::grow::Axis;
 use crate::law::At;
 use phytomer_sim::clock::{NEVER, Tick};
@@ -15,13 +15,19 @@ const TERMINAL: u16 = u16::MAX;
 
 /// Where a flower opens, and when.
 #[derive(Debug, Clone, Copy)]
-struct FlowerSite {
-    node: NodeId,
+pub(super) struct FlowerSite {
+    pub node: NodeId,
     /// Its place among the flowers in its node's record, from 0.
-    nth: u32,
-    birth: Tick,
-    azimuth: f32,
-    position: u16,
+    pub nth: u32,
+    pub birth: Tick,
+    pub azimuth: f32,
+    pub position: u16,
+}
+
+/// A flower, and the fruit that it sets.
+pub(super) struct Bloom {
+    flower: NewOrgan,
+    fruit: Option<NewOrgan>,
 }
 
 impl Axis<'_> {
@@ -32,7 +38,7 @@ impl Axis<'_> {
         let life = laws.leaf_life.as_ref().map(|life| life.draw(words, nth, at));
         let seasonal = laws.leaf_fall.as_ref().map_or(NEVER, |fall| match fall {
             LeafFall::OfYear(year, fall) => fall_of_year(*year, fall.draw(words, nth, at), self.tick),
-            LeafFall::When(falls) => falls.get(self.tick as usize).copied().unwrap_or(NEVER),
+            LeafFall::When(falls) => fall_when(falls, self.tick),
         });
         let own = leaf_fall(seasonal, self.tick, life);
         let eaten = self.eaten(|exposure| &exposure.leaf, self.tick, PLACE_OF_EATEN_LEAVES + nth);
@@ -78,20 +84,38 @@ impl Axis<'_> {
         self.plant.axes.spent[self.bud.axis.index()] = past;
     }
 
-    /// Adds a flower, and the fruit that it may set. Returns the tick at which the last of them falls. A terminal
-    /// flower stands in the direction of its axis, and its laws are evaluated at the rank of the node that bears it. An
-    /// organ that would appear after the last age of the run is left out: it takes neither memory nor room under the
-    /// plant's limit. A flower that is eaten sets no fruit.
+    /// Adds a flower, and the fruit that it may set. Returns the tick at which the last of them falls.
     fn flower(&mut self, site: FlowerSite, at: At) -> Tick {
-        let FlowerSite { node, nth, birth, azimuth, position } = site;
         let laws = &self.laws.node;
-        let fall = birth.saturating_add(laws.flower_life.draw(&self.words.on_node, nth, at).max(1));
-        let sets = laws.fruit_set.happens(&self.words.on_node, nth, at);
-        let eaten = self.eaten(|exposure| &exposure.flower, birth, PLACE_OF_EATEN_FLOWERS + nth);
+        let fall = flower_fall(laws, &self.words.on_node, site, at);
+        let eaten = [
+            self.eaten(|exposure| &exposure.flower, site.birth, PLACE_OF_EATEN_FLOWERS + site.nth),
+            self.eaten(|exposure| &exposure.fruit, fall, PLACE_OF_EATEN_FRUITS + site.nth),
+        ];
+        let bloom = Bloom::of(laws, &self.words.on_node, site, eaten, at);
+        bloom.by(self.model.until()).for_each(|organ| {
+            self.plant.add_organ(organ);
+        });
+        bloom.end()
+    }
+}
+
+/// The tick at which a flower falls if nothing eats it.
+#[inline]
+fn flower_fall(laws: &NodeLaws, words: &[u32], site: FlowerSite, at: At) -> Tick {
+    site.birth.saturating_add(laws.flower_life.draw(words, site.nth, at).max(1))
+}
+
+impl Bloom {
+    /// A flower and its fruit, with the ticks at which pests eat them. A terminal flower stands in the direction of its
+    /// axis, and its laws are evaluated at the rank of the node that bears it. A flower that is eaten sets no fruit.
+    #[inline]
+    pub fn of(laws: &NodeLaws, words: &[u32], site: FlowerSite, eaten: [Tick; 2], at: At) -> Self {
+        let FlowerSite { node, nth, birth, azimuth, position } = site;
+        let fall = flower_fall(laws, words, site, at);
+        let sets = laws.fruit_set.happens(words, nth, at);
         let own = if sets { Cause::FruitSet } else { Cause::LifeLength };
-        let end = first_end((fall, own), eaten);
-        let fruit_eaten = self.eaten(|exposure| &exposure.fruit, fall, PLACE_OF_EATEN_FRUITS + nth);
-        let words = &self.words.on_node;
+        let end = first_end((fall, own), eaten[0]);
         let insertion = if position == TERMINAL { 0.0 } else { laws.flower.insertion.draw(words, nth, at) };
         let organ = |kind: Kind, form: Form, birth, (death, cause), length, width| NewOrgan {
             node,
@@ -112,20 +136,34 @@ impl Axis<'_> {
         let fruit = (end.1 == Cause::FruitSet).then(|| {
             let ripe = fall.saturating_add(laws.fruit_life.draw(words, nth, at).max(1));
             let (length, width) = (laws.fruit.length.draw(words, nth, at), laws.fruit.width.draw(words, nth, at));
-            let end = first_end((ripe, Cause::LifeLength), fruit_eaten);
+            let end = first_end((ripe, Cause::LifeLength), eaten[1]);
             organ(laws.fruit.kind, laws.fruit.form, fall, end, length, width)
         });
-        let last = self.model.until();
-        let planned = [Some(flower), fruit].into_iter().flatten();
-        planned.filter(|organ| organ.birth <= last).for_each(|organ| {
-            self.plant.add_organ(organ);
-        });
-        fruit.map_or(flower.death, |fruit| fruit.death)
+        Self { flower, fruit }
+    }
+
+    /// Those of its organs that appear by the last age of the run. An organ that would appear later is left out: it
+    /// takes neither memory nor room under the plant's limit.
+    #[inline]
+    pub fn by(&self, last: Tick) -> impl Iterator<Item = NewOrgan> {
+        [Some(self.flower), self.fruit].into_iter().flatten().filter(move |organ| organ.birth <= last)
+    }
+
+    /// The tick at which the last of its organs falls.
+    fn end(&self) -> Tick {
+        self.fruit.map_or(self.flower.death, |fruit| fruit.death)
     }
 }
 
+/// The tick at which a leaf of a birth falls by the date.
+#[inline]
+pub(super) fn fall_when(falls: &[Tick], birth: Tick) -> Tick {
+    falls.get(birth as usize).copied().unwrap_or(NEVER)
+}
+
 /// The first tick after a birth that is the tick `fall` of a year of `year` ticks.
-fn fall_of_year(year: u32, fall: u32, birth: Tick) -> Tick {
+#[inline]
+pub(super) fn fall_of_year(year: u32, fall: u32, birth: Tick) -> Tick {
     let (year, fall) = (u64::from(year), u64::from(fall));
     let wait = (fall + year - u64::from(birth) % year) % year;
     let wait = if wait == 0 { year } else { wait };
@@ -133,7 +171,8 @@ fn fall_of_year(year: u32, fall: u32, birth: Tick) -> Tick {
 }
 
 /// The tick at which a leaf falls and why, by its life length or by the season, which makes it fall at `seasonal`.
-fn leaf_fall(seasonal: Tick, birth: Tick, life: Option<u32>) -> (Tick, Cause) {
+#[inline]
+pub(super) fn leaf_fall(seasonal: Tick, birth: Tick, life: Option<u32>) -> (Tick, Cause) {
     let aged = life.map_or(NEVER, |life| birth.saturating_add(life.max(1)));
     match (aged.min(seasonal), aged <= seasonal) {
         (NEVER, _) => (NEVER, Cause::None),
