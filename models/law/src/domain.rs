@@ -2,7 +2,8 @@
 //!
 //! An axis is never older than its plant, so a point with dimension > age cannot occur; it is read as dimension = age.
 //! What the date alone decides has no axis of its own in a table: a law that names it is a function of the age.
-//! Absent: the cells of a compiled table (`grid`), what the variables mean and which laws may depend on them (`variable`).
+//! Absent: the cells of a compiled table (`grid`), what the variables mean and which laws may depend on them
+//! (`variable`).
 
 use super::steps::{HEIGHT_STEP, MOST_HEIGHT, SHADE_STEPS, height_in_steps};
 use super::variable::{Asked, Variable};

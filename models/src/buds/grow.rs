@@ -171,10 +171,11 @@ impl<'a> Axis<'a> {
     /// One clock step of the apical bud; false where it ended.
     fn step(&mut self) -> Result<bool, Full> {
         self.bud.cycle += 1;
+        let at = self.at(0);
         self.read_step();
         self.feel();
+        let at = At { contact: self.contact, ..at };
         let laws = &self.laws.step;
-        let at = self.at(0);
         if laws.death.happens(&self.words.step, 0, at) {
             // A bud that would have lived in full light dies of shade.
             let in_light = At { shade: 0, ..at };
@@ -199,7 +200,9 @@ impl<'a> Axis<'a> {
             return Ok(lives);
         }
         for unit in 0..laws.per_step.draw(&self.words.step, 0, at) {
-            let grown = self.growth_unit(unit)?;
+            let ApicalBud { birth: bud_birth, units, .. } = self.bud;
+            let at = At { bud_birth, bud_dimension: bud_birth.saturating_sub(self.birth), unit: units, ..at };
+            let grown = self.growth_unit(unit, at)?;
             if self.ends_stuck()? {
                 return Ok(false);
             }
@@ -227,9 +230,8 @@ impl<'a> Axis<'a> {
 
     /// A growth unit: its type, the number of its nodes, then node by node as far as there is a way. Whether it was
     /// made: a unit whose first node has no way is a pause.
-    fn growth_unit(&mut self, unit: u32) -> Result<bool, Full> {
+    fn growth_unit(&mut self, unit: u32, at: At) -> Result<bool, Full> {
         let laws = &self.laws.step;
-        let at = self.at(0);
         let short = laws.short.happens(&self.words.step, unit, at);
         let preformed = match short {
             true => laws.short_nodes.draw(&self.words.step, unit, at),
@@ -245,7 +247,7 @@ impl<'a> Axis<'a> {
             laws.zone_ranks.draw(&self.words.step, unit, at, &mut self.words.zones);
         }
         if self.plans {
-            self.plan_unit(short, [preformed, neoformed])?;
+            self.plan_unit(at, short, [preformed, neoformed])?;
             self.note(EventKind::Grew, nodes);
             return Ok(true);
         }
@@ -271,7 +273,11 @@ impl<'a> Axis<'a> {
     }
 
     /// Makes at most one passage between states. Each passage has one word, in the order in which they are stated.
+    #[inline]
     fn pass_state(&mut self) -> Result<(), Full> {
+        if self.laws.step.transitions.is_empty() {
+            return Ok(());
+        }
         let at = self.at(0);
         let (state, leads) = (self.bud.state, self.leads);
         let laws = self.laws;

@@ -14,6 +14,7 @@ mod contact;
 mod cuts;
 pub mod expectation;
 mod grow;
+mod lives;
 mod model;
 mod node;
 mod organ;

@@ -1,9 +1,9 @@
 //! What an axis has decided on at its clock steps and has yet to make: the nodes of growth units, and the events of its
 //! bud between them.
 //!
-//! Nothing that a bud decides at a step depends on its nodes, as long as it meets nothing; so an axis first goes through
-//! its steps and then makes all nodes at once (`columns`). A plan holds a block of nodes at most. Absent: the steps
-//! (`grow`).
+//! Nothing that a bud decides at a step depends on its nodes, as long as it meets nothing; so an axis first goes
+//! through its steps and then makes all nodes at once (`columns`). A plan holds a block of nodes at most. Absent: the
+//! steps (`grow`).
 
 use super::compile::{Piece, Ranks};
 use phytomer_sim::plant::Event;

@@ -16,8 +16,8 @@ const FEWEST: u32 = 4;
 
 impl Axis<'_> {
     /// Plans the nodes of a growth unit, and makes the block as soon as it is full.
-    pub(super) fn plan_unit(&mut self, short: bool, [preformed, neoformed]: [u32; 2]) -> Result<(), Full> {
-        let (at, unit_nodes) = (self.at(0), preformed + neoformed);
+    pub(super) fn plan_unit(&mut self, at: At, short: bool, [preformed, neoformed]: [u32; 2]) -> Result<(), Full> {
+        let unit_nodes = preformed + neoformed;
         let mut first = 1;
         while first <= unit_nodes {
             let words = &mut *self.words;
@@ -36,8 +36,8 @@ impl Axis<'_> {
         Ok(())
     }
 
-    /// Makes the nodes that are planned, at once where they are not few. The plant has no room for them where it would be
-    /// overgrown with them.
+    /// Makes the nodes that are planned, at once where they are not few. The plant has no room for them where it would
+    /// be overgrown with them.
     #[inline]
     pub(super) fn make_planned(&mut self) -> Result<(), Full> {
         match self.words.plan.nodes() {

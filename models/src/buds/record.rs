@@ -84,8 +84,8 @@ impl Words {
         }
     }
 
-    /// Reads the records of the nodes that are planned, with as many words behind them as there can be things of one kind
-    /// on a node; `made` nodes of the axis are made.
+    /// Reads the records of the nodes that are planned, with as many words behind them as there can be things of one
+    /// kind on a node; `made` nodes of the axis are made.
     pub fn read_nodes(&mut self, laws: &OrderLaws, random: &PlantRandom, key: LineageKey, made: u32) {
         let into = &mut self.nodes;
         let (width, nodes) = (laws.node.width, self.plan.nodes() as usize);

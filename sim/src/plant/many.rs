@@ -1,7 +1,7 @@
 //! Components added many at once: the columns grow by slices instead of entry by entry.
 //!
-//! The plant is the same as if its model had added them one by one: the model states the component numbers, in the order
-//! in which it would have added them. Absent: the entry of one component (`node`, `organ`, `axis`).
+//! The plant is the same as if its model had added them one by one: the model states the component numbers, in the
+//! order in which it would have added them. Absent: the entry of one component (`node`, `organ`, `axis`).
 
 use super::handle::{AxisId, NodeId};
 use super::node::{Formation, Nodes, buds_told, told};
@@ -54,8 +54,8 @@ pub struct NewNodes<'a> {
 }
 
 impl Plant {
-    /// Takes the next `count` component numbers and returns the first of them, or `None` where the plant has no room for
-    /// so many. Each of them must be given to one of the components that are added next.
+    /// Takes the next `count` component numbers and returns the first of them, or `None` where the plant has no room
+    /// for so many. Each of them must be given to one of the components that are added next.
     pub fn take_numbers(&mut self, count: u32) -> Option<u32> {
         let first = self.components;
         self.has_room_for(count).then(|| {

@@ -1,7 +1,7 @@
 //! The axes that arise from the buds of a block of nodes: axillary buds that ramify, and reiteration buds.
 //!
-//! Whether a bud becomes an axis is tested for all buds at once, or node by node where zones have laws of their own; the
-//! few that do are drawn one by one.
+//! Whether a bud becomes an axis is tested for all buds at once, or node by node where there are zones; the few that do
+//! are drawn one by one.
 
 use super::block::Block;
 use crate::buds::birth::shed_after;
@@ -31,7 +31,8 @@ pub struct NewAxes {
 }
 
 impl NewAxes {
-    /// Draws the axes of a block, whose nodes have `buds` axillary buds from the azimuths `first` on and `spacing` apart.
+    /// Draws the axes of a block, whose nodes have `buds` axillary buds, from the azimuths `first` on and `spacing`
+    /// apart.
     pub fn draw(&mut self, block: &Block<'_>, nodes: &Things, buds: &[u32], first: &[f32], spacing: &[f32]) {
         self.released.clear();
         self.rows.clear();

@@ -4,7 +4,7 @@
 
 use super::block::Block;
 use crate::buds::compile::Things;
-use crate::buds::organ::{Bloom, FlowerSite};
+use crate::buds::lives::{Bloom, FlowerSite};
 use phytomer_sim::clock::NEVER;
 use phytomer_sim::plant::NewOrgan;
 

@@ -2,7 +2,7 @@
 
 use super::block::Block;
 use crate::buds::compile::{LeafFall, Things};
-use crate::buds::organ::{fall_of_year, fall_when, leaf_fall};
+use crate::buds::lives::{fall_of_year, fall_when, leaf_fall};
 use phytomer_sim::clock::NEVER;
 use phytomer_sim::plant::{Cause, NewOrgan};
 

@@ -3,7 +3,7 @@
 //! The words of the nodes are read in bulk; one loop a column draws lengths, angles, leaves, lives, flowers with their
 //! fruits, and buds; prefix sums give the component numbers. The plant is the same to the bit as node by node (`node`),
 //! where an axis goes that meets obstacles, has pests, or responds node by node. Both ways share
-//! their formulas (`compile`, `site`, `organ`). Absent: the steps at which the axis decides (`grow`).
+//! their formulas (`compile`, `site`, `lives`). Absent: the steps at which the axis decides (`grow`).
 
 mod axes;
 mod block;
@@ -44,8 +44,8 @@ pub struct Columns {
 }
 
 impl Columns {
-    /// Makes the nodes of a block. Returns the bud after them, or `None` where the plant has no room for them; it then has
-    /// none of them.
+    /// Makes the nodes of a block. Returns the bud after them, or `None` where the plant has no room for them; it then
+    /// has none of them.
     pub fn make(&mut self, block: &Block<'_>, plant: &mut Plant, plan: &Plan) -> Option<ApicalBud> {
         let azimuth = self.draw(block);
         self.write(block, plant, plan).then(|| self.bud_after(block, azimuth))

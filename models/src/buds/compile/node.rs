@@ -35,8 +35,8 @@ pub const PLACE_OF_EATEN_FLOWERS: u32 = PLACE_OF_EATEN_LEAVES + MOST_ORGANS;
 pub const PLACE_OF_EATEN_FRUITS: u32 = PLACE_OF_EATEN_FLOWERS + MOST_ORGANS;
 pub const NODE_OF_RESPONSES: u32 = PLACE_OF_EATEN_FRUITS + MOST_ORGANS;
 
-/// The words of the nodes that are made at once, where that is between 16 and 256 nodes: they stay in the caches that are
-/// nearest, and an axis that outgrows its plant's limit has no more in hand.
+/// The words of the nodes that are made at once, where that is between 16 and 256 nodes: they stay in the caches that
+/// are nearest, and an axis that outgrows its plant's limit has no more in hand.
 const WORDS_OF_BLOCK: usize = 4096;
 
 /// The laws of one node of an order.

@@ -210,8 +210,17 @@ impl Number {
     }
 
     /// The number drawn, the `nth` time (from 0) in this record.
-    #[inline]
+    // Called several times a step: most numbers are fixed.
+    #[inline(always)]
     pub fn draw(&self, words: &[u32], nth: u32, at: At) -> u32 {
+        match (self.fixed, &self.times) {
+            (Some(fixed), None) => fixed,
+            _ => self.drawn(words, nth, at),
+        }
+    }
+
+    #[inline(never)]
+    fn drawn(&self, words: &[u32], nth: u32, at: At) -> u32 {
         let own = match self.fixed {
             Some(fixed) => fixed,
             None => self.table.sample(self.slot.word(words, nth), at),

@@ -22,8 +22,8 @@ pub struct Piece {
     pub preformed: u32,
     /// Whether the growth unit is of the short type.
     pub short: bool,
-    /// The place of the ranks of the unit's zones among those of the block, and of the first behind them; equal where the
-    /// unit has drawn none.
+    /// The place of the ranks of the unit's zones among those of the block, and of the first behind them; equal where
+    /// the unit has drawn none.
     pub zones: (u32, u32),
 }
 
