@@ -8,10 +8,12 @@ use std::collections::BTreeMap;
 use super::MAX_WORK;
 use super::count::Count;
 use super::count_source::{Source, check_count, sources};
-use super::domain::{At, Domain, Grid};
+use super::domain::{At, Domain};
 use super::formula::{self, Formula};
+use super::grid::Grid;
 use super::mass::{MAX_COUNT, Mass};
 use super::variable::Variable;
+use super::varies::Varies;
 use crate::fault::{Fault, Path};
 
 const WORDS: f64 = 4_294_967_296.0;
@@ -169,7 +171,19 @@ impl CountTable {
     #[inline]
     pub fn sample(&self, word: u32, at: At) -> u32 {
         let (distribution, thresholds) = self.at(at);
-        distribution.first + thresholds.partition_point(|&threshold| threshold <= word) as u32
+        distribution.first + not_above(thresholds, word)
+    }
+
+    /// Many counts at one point, each with its own word into its own place. Each is that of [`Self::sample`].
+    #[inline]
+    pub fn sample_many<'a>(&self, at: At, draws: impl Iterator<Item = (u32, &'a mut u32)>) {
+        let (distribution, thresholds) = self.at(at);
+        draws.for_each(|(word, into)| *into = distribution.first + not_above(thresholds, word));
+    }
+
+    /// How often the distribution can change along the nodes of an axis.
+    pub fn varies(&self) -> Varies {
+        self.grid.varies()
     }
 
     /// The count, where it is the same at every point and in every draw, in a run of any length.
@@ -256,6 +270,12 @@ impl CountTable {
         }
         pmf
     }
+}
+
+/// How many thresholds are not above a word.
+#[inline]
+fn not_above(thresholds: &[u32], word: u32) -> u32 {
+    thresholds.partition_point(|&threshold| threshold <= word) as u32
 }
 
 /// The largest count that sources can draw together in a run of any length. Counts of each kind grow with its

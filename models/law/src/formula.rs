@@ -6,9 +6,10 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::curves::Curve;
-use super::domain::{At, Domain, Grid, Uses};
+use super::domain::{At, Domain, Uses};
 use super::expression::{Expression, Loaded, OfLaws};
 use super::form::{Law, LawForm};
+use super::grid::Grid;
 use super::range::ValueRange;
 use super::variable::Variable;
 use super::{MAX_CELLS, MAX_WORK, dates, parser, spelling};

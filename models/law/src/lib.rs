@@ -21,6 +21,7 @@ mod expression;
 pub mod fault;
 mod form;
 mod formula;
+mod grid;
 mod mass;
 mod own_age;
 mod parser;
@@ -42,6 +43,7 @@ mod tests_draws;
 mod variable;
 mod variate;
 mod variate_table;
+mod varies;
 
 pub use constant::{Constant, ConstantForm};
 pub use count::{Binomial, Count, CountComponent, CountForm, NegativeBinomial, Poisson};
@@ -57,10 +59,11 @@ pub use responding::Responding;
 pub use responses::{LinearPlateauLaw, MitscherlichLaw, QuadraticPlateauLaw};
 pub use speed::{SpeedForm, SpeedTable, SpeedText, Speeds};
 pub use steps::{HEIGHT_STEP, LIGHT_STEP, SHADE_STEPS, height_in_steps, shade_in_steps};
-pub use table::{ProbabilityTable, ValueTable, happens};
+pub use table::{ProbabilityTable, Threshold, ValueTable, happens};
 pub use variable::{Asked, Variable};
 pub use variate::{Lognormal, Normal, Uniform, Variate, VariateForm};
 pub use variate_table::VariateTable;
+pub use varies::Varies;
 
 /// The most cells that one compiled law may have (64 MiB of thresholds).
 pub const MAX_CELLS: u64 = 16 * 1024 * 1024;

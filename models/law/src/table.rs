@@ -4,11 +4,13 @@
 //! kept to 1.2e-10; `u32::MAX` means certain and 0 never. Every point of the domain is checked here, before the
 //! first tick. Absent on purpose: where the words come from.
 
-use super::domain::{At, Domain, Grid};
+use super::domain::{At, Domain};
 use super::form::Law;
 use super::formula::Formula;
+use super::grid::Grid;
 use super::range::ValueRange;
 use super::variable::Variable;
+use super::varies::Varies;
 use crate::fault::{Fault, Path};
 
 const WORDS: f64 = 4_294_967_296.0;
@@ -68,15 +70,28 @@ fn threshold(p: f64) -> u32 {
     if p >= 1.0 { CERTAIN } else { ((p * WORDS).round() as u32).min(CERTAIN - 1) }
 }
 
-#[inline]
-fn is_below(word: u32, threshold: u32) -> bool {
-    (word < threshold) | (threshold == CERTAIN)
+/// A probability in the form in which words are compared with it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Threshold(u32);
+
+impl Threshold {
+    /// That of a probability in [0, 1].
+    #[inline]
+    pub fn of(p: f64) -> Self {
+        Self(threshold(p))
+    }
+
+    /// Whether the event happens, drawn with one uniform 32-bit word.
+    #[inline]
+    pub fn is_met(self, word: u32) -> bool {
+        (word < self.0) | (self.0 == CERTAIN)
+    }
 }
 
 /// Whether an event of probability `p` in [0, 1] happens, drawn with one uniform 32-bit word as a table draws it.
 #[inline]
 pub fn happens(p: f64, word: u32) -> bool {
-    is_below(word, threshold(p))
+    Threshold::of(p).is_met(word)
 }
 
 impl ProbabilityTable {
@@ -89,7 +104,18 @@ impl ProbabilityTable {
     /// Whether the event happens at a point, drawn with one uniform 32-bit word.
     #[inline]
     pub fn happens(&self, word: u32, at: At) -> bool {
-        is_below(word, self.thresholds[self.grid.cell(at)])
+        self.threshold(at).is_met(word)
+    }
+
+    /// The threshold at a point, for many draws there.
+    #[inline]
+    pub fn threshold(&self, at: At) -> Threshold {
+        Threshold(self.thresholds[self.grid.cell(at)])
+    }
+
+    /// How often the probability can change along the nodes of an axis.
+    pub fn varies(&self) -> Varies {
+        self.grid.varies()
     }
 
     /// The probability at a point, as it is drawn (to 1.2e-10).

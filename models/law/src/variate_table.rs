@@ -7,12 +7,14 @@
 use phytomer_sim::math;
 use phytomer_sim::random::share;
 
-use super::domain::{At, Domain, Grid};
+use super::domain::{At, Domain};
 use super::form::Law;
 use super::formula::{self, Formula};
+use super::grid::Grid;
 use super::quantile::{density, deviate, phi};
 use super::range::ValueRange;
 use super::variate::{Lognormal, Normal, Uniform, Variate, VariateForm};
+use super::varies::Varies;
 use crate::fault::{Fault, Path};
 
 #[derive(Clone, Debug, PartialEq)]
@@ -209,15 +211,42 @@ impl VariateTable {
 
     #[inline]
     fn draw_in(&self, cell: usize, word: u32) -> f64 {
+        let mut drawn = 0.0;
+        self.draw_each(cell, std::iter::once((word, &mut drawn)), |value| value);
+        drawn
+    }
+
+    /// Many draws at one point, each with its own word into its own place and finished by `finish`. Each is the draw of
+    /// [`Self::draw`].
+    #[inline]
+    pub fn draw_many<'a>(&self, at: At, draws: impl Iterator<Item = (u32, &'a mut f32)>, finish: impl Fn(f32) -> f32) {
+        self.draw_each(self.grid.cell(at), draws, |value| finish(value as f32));
+    }
+
+    /// How often the parameters can change along the nodes of an axis.
+    pub fn varies(&self) -> Varies {
+        self.grid.varies()
+    }
+
+    /// Draws in a cell; the kind of the distribution is looked at once for all of them.
+    #[inline(always)]
+    fn draw_each<'a, T: 'a>(
+        &self,
+        cell: usize,
+        draws: impl Iterator<Item = (u32, &'a mut T)>,
+        finish: impl Fn(f64) -> T,
+    ) {
         let [a, b] = self.cells[cell];
-        let value = match &self.kind {
-            Kind::Value => a,
-            Kind::Uniform => a + (b - a) * share(word),
-            Kind::Normal => a + b * deviate(word),
-            Kind::Lognormal => math::exp(a + b * deviate(word)),
-            Kind::Empirical(values) => values[pick(word, values.len())],
-        };
-        self.clamp(value)
+        let finish = |value: f64| finish(self.clamp(value));
+        match &self.kind {
+            Kind::Value => draws.for_each(|(_, into)| *into = finish(a)),
+            Kind::Uniform => draws.for_each(|(word, into)| *into = finish(a + (b - a) * share(word))),
+            Kind::Normal => draws.for_each(|(word, into)| *into = finish(a + b * deviate(word))),
+            Kind::Lognormal => draws.for_each(|(word, into)| *into = finish(math::exp(a + b * deviate(word)))),
+            Kind::Empirical(values) => {
+                draws.for_each(|(word, into)| *into = finish(values[pick(word, values.len())]));
+            }
+        }
     }
 
     /// The value, where it is the same at every point and in every draw, in a run of any length.

@@ -10,7 +10,7 @@ use super::compile::{PLACE_OF_DEATH, PLACE_OF_WEAKNESS, join, nodes_times};
 use super::grow::Axis;
 use crate::law::{At, happens};
 use phytomer_sim::clock::{NEVER, Tick};
-use phytomer_sim::plant::{ApexFate, Cause, EventKind, Exposure, Survival};
+use phytomer_sim::plant::{ApexFate, EventKind, Exposure, Survival};
 
 impl Axis<'_> {
     /// Whether a pest kills the bud at this step, which it has survived so far.
@@ -58,9 +58,4 @@ impl Axis<'_> {
         let word = self.words.of_node(&self.plant.random, key, self.bud.rank, place);
         of(&exposure).end(birth, word)
     }
-}
-
-/// The end of an organ, whichever comes first: its own, or that by a pest.
-pub(super) fn first_end(own: (Tick, Cause), eaten: Tick) -> (Tick, Cause) {
-    if eaten < own.0 { (eaten, Cause::Attacked) } else { own }
 }

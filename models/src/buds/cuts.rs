@@ -6,9 +6,10 @@
 //! dormant may be released by a later cut, so each cut draws anew: in a stream of the node, a record for each age of
 //! the plant. Absent: the cuts, and the memory of dormant buds (`sim::plant`).
 
+use super::birth::first_bud;
 use super::bud::ApicalBud;
 use super::compile::BudModel;
-use super::grow::{Axis, first_bud};
+use super::grow::Axis;
 use super::record::{Words, read};
 use phytomer_sim::Tick;
 use phytomer_sim::model::Overgrown;

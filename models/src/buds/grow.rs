@@ -10,14 +10,19 @@
 //! tick, each axis makes the same draws at the same steps.
 
 use super::around::Around;
+use super::birth::at_birth;
 use super::bud::ApicalBud;
 use super::compile::{BudModel, OrderLaws, Passage};
 use super::params::ApexEnd;
 use super::record::Words;
 use crate::law::{At, height_in_steps};
 use phytomer_sim::clock::{NEVER, Speed, Tick};
-use phytomer_sim::plant::{ApexFate, AxisId, EventKind, NewAxis, NodeId, Plant};
+use phytomer_sim::plant::{ApexFate, Event, EventKind, NodeId, Plant};
 use phytomer_sim::random::Purpose;
+
+/// The fewest nodes that an axis plans: one that grows on by a tick or two, and can make no more of them, makes each as
+/// it comes.
+const FEWEST: u32 = 8;
 
 /// One axis while it grows.
 pub(super) struct Axis<'a> {
@@ -45,6 +50,8 @@ pub(super) struct Axis<'a> {
     birth: Tick,
     /// The age at which a pest kills the whole plant.
     pub whole_death: Tick,
+    /// Whether it plans its nodes and makes them at once.
+    plans: bool,
 }
 
 /// The plant has no room left for a component that a bud would make.
@@ -75,12 +82,24 @@ impl<'a> Axis<'a> {
             leads: false,
             birth: 0,
             whole_death: NEVER,
+            plans: false,
         };
         let place = axis.bud.axis.index();
         (axis.leads, axis.birth) = (!axis.plant.axes.follows[place], axis.plant.axes.birth[place]);
         axis.whole_death = axis.plant.exposure.as_ref().map_or(NEVER, |exposure| exposure.death);
         axis.read_head();
         axis
+    }
+
+    /// Whether its nodes are made at once: where nothing that one of them is asked for depends on how the node before
+    /// it lies, or needs words of a stream of responses.
+    fn makes_columns(&self) -> bool {
+        let responds = !self.laws.node.spare.places().is_empty();
+        let in_full_light = self.laws.light_alone && self.shade == 0;
+        self.laws.node.block > 0
+            && self.around.is_none()
+            && self.plant.exposure.is_none()
+            && (!responds || in_full_light)
     }
 
     /// Reads the quantities that the axis has drawn at its birth and that its growth needs. They are the same each
@@ -102,15 +121,17 @@ impl<'a> Axis<'a> {
     /// the ticks and in the components made.
     pub fn grow(mut self, age: Tick) -> Result<Option<ApicalBud>, Full> {
         let last = age.min(self.whole_death.saturating_sub(1));
+        let most_nodes = last.saturating_sub(self.bud.age).saturating_mul(self.laws.node.most_nodes);
+        self.plans = most_nodes >= FEWEST && self.makes_columns();
         for tick in self.bud.age + 1..=last {
-            self.tick = tick;
-            self.dimension = tick.saturating_sub(self.birth);
+            self.set_tick(tick);
             for _ in self.bud.cycle..self.speed.steps_by(self.dimension) {
                 if !self.step()? {
                     return Ok(None);
                 }
             }
         }
+        self.make_planned()?;
         if age >= self.whole_death {
             self.die_whole();
             return Ok(None);
@@ -119,17 +140,22 @@ impl<'a> Axis<'a> {
         Ok(Some(self.bud))
     }
 
-    /// Puts the clock of the axis to `tick`, with all the steps that are due by then made.
-    pub fn begin_at(&mut self, tick: Tick) {
+    /// Puts the clock of the axis to `tick`.
+    #[inline]
+    pub(super) fn set_tick(&mut self, tick: Tick) {
         self.tick = tick;
         self.dimension = tick.saturating_sub(self.birth);
+    }
+
+    /// Puts the clock of the axis to `tick`, with all the steps that are due by then made.
+    pub fn begin_at(&mut self, tick: Tick) {
+        self.set_tick(tick);
         self.bud.cycle = self.speed.steps_by(self.dimension);
     }
 
     /// Kills the bud at `tick` from outside; relays and reiteration follow as after any death of an apex.
     pub fn kill(mut self, tick: Tick) -> Result<(), Full> {
-        self.tick = tick;
-        self.dimension = tick.saturating_sub(self.birth);
+        self.set_tick(tick);
         self.end(ApexFate::Killed, EventKind::Killed, ApexEnd::Death).map(|_| ())
     }
 
@@ -145,10 +171,11 @@ impl<'a> Axis<'a> {
     /// One clock step of the apical bud; false where it ended.
     fn step(&mut self) -> Result<bool, Full> {
         self.bud.cycle += 1;
+        let at = self.at(0);
         self.read_step();
         self.feel();
+        let at = At { contact: self.contact, ..at };
         let laws = &self.laws.step;
-        let at = self.at(0);
         if laws.death.happens(&self.words.step, 0, at) {
             // A bud that would have lived in full light dies of shade.
             let in_light = At { shade: 0, ..at };
@@ -165,15 +192,17 @@ impl<'a> Axis<'a> {
             return Ok(true);
         }
         if laws.flower.happens(&self.words.step, 0, at) {
-            let ended = self.end(ApexFate::Flowered, EventKind::Flowered, ApexEnd::Flower);
+            let ended = self.end(ApexFate::Flowered, EventKind::Flowered, ApexEnd::Flower)?;
             self.terminal_flower();
-            return if self.plant.is_overgrown() { Err(Full) } else { ended };
+            return if self.plant.is_overgrown() { Err(Full) } else { Ok(ended) };
         }
         if let Some(lives) = self.answer_contact()? {
             return Ok(lives);
         }
         for unit in 0..laws.per_step.draw(&self.words.step, 0, at) {
-            let grown = self.growth_unit(unit)?;
+            let ApicalBud { birth: bud_birth, units, .. } = self.bud;
+            let at = At { bud_birth, bud_dimension: bud_birth.saturating_sub(self.birth), unit: units, ..at };
+            let grown = self.growth_unit(unit, at)?;
             if self.ends_stuck()? {
                 return Ok(false);
             }
@@ -201,9 +230,8 @@ impl<'a> Axis<'a> {
 
     /// A growth unit: its type, the number of its nodes, then node by node as far as there is a way. Whether it was
     /// made: a unit whose first node has no way is a pause.
-    fn growth_unit(&mut self, unit: u32) -> Result<bool, Full> {
+    fn growth_unit(&mut self, unit: u32, at: At) -> Result<bool, Full> {
         let laws = &self.laws.step;
-        let at = self.at(0);
         let short = laws.short.happens(&self.words.step, unit, at);
         let preformed = match short {
             true => laws.short_nodes.draw(&self.words.step, unit, at),
@@ -217,6 +245,11 @@ impl<'a> Axis<'a> {
         let nodes = preformed + neoformed;
         if laws.zone_ranks.are_drawn() {
             laws.zone_ranks.draw(&self.words.step, unit, at, &mut self.words.zones);
+        }
+        if self.plans {
+            self.plan_unit(at, short, [preformed, neoformed])?;
+            self.note(EventKind::Grew, nodes);
+            return Ok(true);
         }
         let mut made = 0;
         for rank in 1..=nodes {
@@ -240,7 +273,11 @@ impl<'a> Axis<'a> {
     }
 
     /// Makes at most one passage between states. Each passage has one word, in the order in which they are stated.
+    #[inline]
     fn pass_state(&mut self) -> Result<(), Full> {
+        if self.laws.step.transitions.is_empty() {
+            return Ok(());
+        }
         let at = self.at(0);
         let (state, leads) = (self.bud.state, self.leads);
         let laws = self.laws;
@@ -251,6 +288,7 @@ impl<'a> Axis<'a> {
         };
         // Its relays start in the state that it leaves, unless the species says otherwise.
         if passage.relayed {
+            self.make_planned()?;
             self.follow_passage()?;
         }
         self.bud.state = passage.to;
@@ -259,10 +297,17 @@ impl<'a> Axis<'a> {
 
     /// Writes down what the bud did, in its present state.
     pub(super) fn note(&mut self, event: EventKind, count: u32) {
-        self.plant.note_in_state(self.bud.state, self.tick, self.bud.axis, event, count);
+        let plan = &mut self.words.plan;
+        if plan.is_empty() {
+            self.plant.note_in_state(self.bud.state, self.tick, self.bud.axis, event, count);
+        } else if self.plant.events.is_some() {
+            let (tick, axis, kind, state) = (self.tick, self.bud.axis, event, self.bud.state);
+            plan.events.push((plan.nodes(), Event { tick, axis, kind, count, state }));
+        }
     }
 
     pub(super) fn end(&mut self, fate: ApexFate, event: EventKind, end: ApexEnd) -> Result<bool, Full> {
+        self.make_planned()?;
         self.plant.axes.end_apex(self.bud.axis, self.tick, fate);
         let count = if fate == ApexFate::Completed { self.bud.units } else { 1 };
         self.note(event, count);
@@ -273,53 +318,5 @@ impl<'a> Axis<'a> {
     /// The last node of the axis, where it has one of its own.
     pub fn own_last_node(&self) -> Option<NodeId> {
         (self.bud.rank > 0).then_some(self.bud.last_node)
-    }
-}
-
-/// The point at which the laws of the head of an axis are evaluated.
-fn at_birth(birth: Tick, state: u8) -> At {
-    At { age: birth, state, ..At::default() }
-}
-
-/// Adds an axis, with the quantities drawn at its birth that do not concern its growth: the time from its death to its
-/// fall, and the trends of its own.
-pub(super) fn add_axis(model: &BudModel, plant: &mut Plant, new: NewAxis) -> AxisId {
-    let laws = &model.laws(new.order).head;
-    let fixed = laws.shed_after.as_ref().map_or(Some(NEVER), |ticks| ticks.fixed());
-    if !laws.marks_birth {
-        return plant.add_axis(NewAxis { shed_after: fixed.unwrap_or(NEVER), ..new });
-    }
-    let words = laws.words(&plant.random, new.key);
-    let at = at_birth(new.birth, new.state);
-    let shed_after = laws.shed_after.as_ref().map_or(NEVER, |ticks| ticks.draw(&words, 0, at));
-    let axis = plant.add_axis(NewAxis { shed_after, ..new });
-    if laws.trends.has_own() {
-        plant.own_trends.give(axis, laws.trends.draw_own(&words, at));
-    }
-    axis
-}
-
-/// A bud at the start of the axis `axis`.
-pub(super) fn first_bud(model: &BudModel, plant: &Plant, axis: AxisId) -> ApicalBud {
-    let place = axis.index();
-    let (birth, state) = (plant.axes.birth[place], plant.axes.state[place]);
-    let laws = &model.laws(plant.axes.order[place]).head;
-    let azimuth = laws.first_azimuth.fixed().unwrap_or_else(|| {
-        let words = laws.words(&plant.random, plant.axes.key[place]);
-        laws.first_azimuth.draw(&words, 0, at_birth(birth, state))
-    });
-    ApicalBud {
-        axis,
-        age: birth,
-        cycle: 0,
-        units: 0,
-        birth,
-        passages: 0,
-        rank: 0,
-        last_node: plant.axes.bearer[place],
-        azimuth,
-        state,
-        dormant: 0,
-        bud_spacing: 0.0,
     }
 }

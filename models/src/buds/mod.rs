@@ -5,22 +5,30 @@
 
 mod around;
 mod attack;
+mod birth;
 mod bud;
 mod card;
+mod columns;
 mod compile;
 mod contact;
 mod cuts;
 pub mod expectation;
 mod grow;
+mod lives;
 mod model;
 mod node;
 mod organ;
 pub mod params;
+mod plan;
+mod planned;
 mod record;
+mod site;
 #[cfg(test)]
 mod tests;
 #[cfg(test)]
 mod tests_chain;
+#[cfg(test)]
+mod tests_columns;
 #[cfg(test)]
 mod tests_contact;
 #[cfg(test)]
@@ -39,6 +47,8 @@ mod tests_light;
 mod tests_making;
 #[cfg(test)]
 mod tests_pests;
+#[cfg(test)]
+mod tests_random;
 #[cfg(test)]
 mod tests_replanting;
 #[cfg(test)]

@@ -3,9 +3,10 @@
 //! A plant grown ahead takes its axes one after another through all their ticks; a plant grown by the clock takes each
 //! living bud through one tick. Both call the same step. Absent: the step (`grow`) and the node (`node`).
 
+use super::birth::{add_axis, first_bud};
 use super::bud::{ApicalBud, LivingBuds};
 use super::compile::{BudModel, OrderLaws};
-use super::grow::{Axis, Full, add_axis, first_bud};
+use super::grow::{Axis, Full};
 use super::record::Words;
 use crate::law::At;
 use phytomer_sim::Tick;

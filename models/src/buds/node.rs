@@ -4,35 +4,17 @@
 //! of a node are spread evenly around it, the first at the node's azimuth, each axillary bud in the axil of its leaf.
 
 use super::around::Lie;
+use super::birth::add_axis;
 use super::bud::ApicalBud;
 use super::compile::Branching;
-use super::grow::{Axis, Full, add_axis};
+use super::grow::{Axis, Full};
 use super::params::ApexEnd;
 use super::record::read;
+use super::site::{Bearing, BudSite, TURN, spacing, turned};
 use crate::law::At;
-use phytomer_sim::clock::NEVER;
 use phytomer_sim::plant::key::Place;
-use phytomer_sim::plant::{Dormant, EventKind, NewAxis, NewNode, NodeId, Origin};
+use phytomer_sim::plant::{Dormant, EventKind, NewNode, NodeId, Origin};
 use phytomer_sim::random::Purpose;
-
-const TURN: f32 = 2.0 * std::f32::consts::PI;
-
-/// The place of a bud that becomes an axis.
-#[derive(Debug, Clone, Copy)]
-struct BudSite {
-    node: NodeId,
-    order: u8,
-    origin: Origin,
-    /// The number of the place, for the lineage key.
-    place: u64,
-    /// The number of the bud among the buds of its kind, from 0.
-    position: u32,
-    azimuth: f32,
-    /// Whether another axis of its set of relays or forks came before it.
-    follows: bool,
-    /// The state that the zone gives the new axis; `None`: the state that the branching states.
-    state: Option<u8>,
-}
 
 /// The axillary buds of one node.
 #[derive(Debug, Clone, Copy)]
@@ -77,11 +59,11 @@ impl Axis<'_> {
         let flowers = laws.flowers.draw(words, 0, at);
         let buds = laws.axillary.count.draw(words, 0, at);
         let reiterations = laws.reiteration.count.draw(words, 0, at);
-        let spacing = TURN / leaves.max(buds).max(1) as f32;
+        let spacing = spacing(leaves.max(buds));
         for nth in 0..leaves {
             self.leaf(node, nth, azimuth + spacing * nth as f32, at);
         }
-        let between_flowers = TURN / flowers.max(leaves).max(buds).max(1) as f32;
+        let between_flowers = super::site::spacing(flowers.max(leaves).max(buds));
         for nth in 0..flowers {
             self.lateral_flower(node, nth, azimuth + between_flowers * nth as f32, at);
         }
@@ -124,13 +106,7 @@ impl Axis<'_> {
             diameter,
             azimuth: self.bud.azimuth,
         };
-        let turned = self.bud.azimuth + laws.divergence.draw(words, 0, at);
-        // A divergence is within a turn, so one correction keeps the azimuth in [0, 2π).
-        self.bud.azimuth = match turned {
-            over if over >= TURN => over - TURN,
-            under if under < 0.0 => under + TURN,
-            within => within,
-        };
+        self.bud.azimuth = turned(self.bud.azimuth, laws.divergence.draw(words, 0, at));
         self.bud.rank = along;
         self.bud.passages = 0;
         self.bud.last_node = self.plant.add_node(new);
@@ -148,20 +124,14 @@ impl Axis<'_> {
         self.bud.dormant = 0;
         self.bud.bud_spacing = spacing;
         for position in 0..buds {
-            let site = BudSite {
-                node,
-                order,
-                origin: Origin::Axillary,
-                place: Place::Axillary(position as u16).on(self.bud.rank),
-                position,
-                azimuth: azimuth + spacing * position as f32,
-                follows: false,
-                state: ramification.and_then(|of| of.state(&self.words.on_node, position, at)),
+            let words = &self.words.on_node;
+            let Some(of) = ramification.filter(|of| of.chance.happens(words, position, at)) else {
+                self.bud.dormant |= 1 << position;
+                continue;
             };
-            match ramification.is_some_and(|of| of.chance.happens(&self.words.on_node, position, at)) {
-                true => self.branch(site, &laws.node.axillary, EventKind::Branched, false, at),
-                false => self.bud.dormant |= 1 << position,
-            }
+            let site = BudSite::axillary(node, (order, self.bud.rank), position, (azimuth, spacing));
+            let site = BudSite { state: of.state(words, position, at), ..site };
+            self.branch(site, &laws.node.axillary, EventKind::Branched, false, at);
         }
         if buds > 0 {
             self.remember_dormant(node);
@@ -170,19 +140,10 @@ impl Axis<'_> {
 
     fn reiterations(&mut self, node: NodeId, buds: u32, azimuth: f32, at: At) {
         let laws = self.laws;
-        let spacing = TURN / buds.max(1) as f32;
+        let (order, spacing) = (laws.node.reiteration_order, spacing(buds));
         for position in 0..buds {
             if laws.node.reiteration.chance.happens(&self.words.on_node, position, at) {
-                let site = BudSite {
-                    node,
-                    order: laws.node.reiteration_order,
-                    origin: Origin::Adaptive,
-                    place: Place::Reiteration(position as u16).on(self.bud.rank),
-                    position,
-                    azimuth: azimuth + spacing * position as f32,
-                    follows: false,
-                    state: None,
-                };
+                let site = BudSite::reiteration(node, (order, self.bud.rank), position, (azimuth, spacing));
                 self.branch(site, &laws.node.reiteration, EventKind::Reiterated, false, at);
             }
         }
@@ -320,21 +281,8 @@ impl Axis<'_> {
     /// A new axis from a bud; `end` tells whether its draws stand in the record of the end or of the node.
     fn branch(&mut self, site: BudSite, laws: &Branching, event: EventKind, end: bool, at: At) {
         let words = if end { &self.words.end } else { &self.words.on_node };
-        let position = site.position as u16;
-        let new = NewAxis {
-            bearer: Some(site.node),
-            key: self.plant.axes.key[self.bud.axis.index()].child(site.place),
-            order: site.order,
-            origin: site.origin,
-            position,
-            follows: site.follows,
-            state: site.state.or(laws.state).unwrap_or(self.bud.state),
-            appearance: self.tick,
-            birth: self.tick.saturating_add(laws.delay.draw(words, site.position, at)),
-            azimuth: site.azimuth,
-            insertion: laws.insertion.draw(words, site.position, at),
-            shed_after: NEVER,
-        };
+        let key = self.plant.axes.key[self.bud.axis.index()];
+        let new = site.axis(laws, words, Bearing { key, state: self.bud.state }, at);
         let axis = add_axis(self.model, self.plant, new);
         self.plant.note_in_state(new.state, self.tick, axis, event, 1);
     }

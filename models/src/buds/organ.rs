@@ -3,26 +3,12 @@
 //! An organ has its end from its birth on: that of its life, of the season, or of the pest that eats it. Absent: the
 //! fall of branches, with which organs fall too (`sim::shed`).
 
-use super::attack::first_end;
 use super::compile::{LeafFall, PLACE_OF_EATEN_FLOWERS, PLACE_OF_EATEN_FRUITS, PLACE_OF_EATEN_LEAVES};
 use super::grow::Axis;
+use super::lives::{Bloom, FlowerSite, TERMINAL, fall_of_year, fall_when, first_end, flower_fall, leaf_fall};
 use crate::law::At;
 use phytomer_sim::clock::{NEVER, Tick};
-use phytomer_sim::plant::{Cause, Form, Kind, NewOrgan, NodeId};
-
-/// The position of a terminal flower, which is no lateral's.
-const TERMINAL: u16 = u16::MAX;
-
-/// Where a flower opens, and when.
-#[derive(Debug, Clone, Copy)]
-struct FlowerSite {
-    node: NodeId,
-    /// Its place among the flowers in its node's record, from 0.
-    nth: u32,
-    birth: Tick,
-    azimuth: f32,
-    position: u16,
-}
+use phytomer_sim::plant::{NewOrgan, NodeId};
 
 impl Axis<'_> {
     /// Adds a leaf to the node that is being dressed.
@@ -32,7 +18,7 @@ impl Axis<'_> {
         let life = laws.leaf_life.as_ref().map(|life| life.draw(words, nth, at));
         let seasonal = laws.leaf_fall.as_ref().map_or(NEVER, |fall| match fall {
             LeafFall::OfYear(year, fall) => fall_of_year(*year, fall.draw(words, nth, at), self.tick),
-            LeafFall::When(falls) => falls.get(self.tick as usize).copied().unwrap_or(NEVER),
+            LeafFall::When(falls) => fall_when(falls, self.tick),
         });
         let own = leaf_fall(seasonal, self.tick, life);
         let eaten = self.eaten(|exposure| &exposure.leaf, self.tick, PLACE_OF_EATEN_LEAVES + nth);
@@ -78,66 +64,18 @@ impl Axis<'_> {
         self.plant.axes.spent[self.bud.axis.index()] = past;
     }
 
-    /// Adds a flower, and the fruit that it may set. Returns the tick at which the last of them falls. A terminal
-    /// flower stands in the direction of its axis, and its laws are evaluated at the rank of the node that bears it. An
-    /// organ that would appear after the last age of the run is left out: it takes neither memory nor room under the
-    /// plant's limit. A flower that is eaten sets no fruit.
+    /// Adds a flower, and the fruit that it may set. Returns the tick at which the last of them falls.
     fn flower(&mut self, site: FlowerSite, at: At) -> Tick {
-        let FlowerSite { node, nth, birth, azimuth, position } = site;
         let laws = &self.laws.node;
-        let fall = birth.saturating_add(laws.flower_life.draw(&self.words.on_node, nth, at).max(1));
-        let sets = laws.fruit_set.happens(&self.words.on_node, nth, at);
-        let eaten = self.eaten(|exposure| &exposure.flower, birth, PLACE_OF_EATEN_FLOWERS + nth);
-        let own = if sets { Cause::FruitSet } else { Cause::LifeLength };
-        let end = first_end((fall, own), eaten);
-        let fruit_eaten = self.eaten(|exposure| &exposure.fruit, fall, PLACE_OF_EATEN_FRUITS + nth);
-        let words = &self.words.on_node;
-        let insertion = if position == TERMINAL { 0.0 } else { laws.flower.insertion.draw(words, nth, at) };
-        let organ = |kind: Kind, form: Form, birth, (death, cause), length, width| NewOrgan {
-            node,
-            kind,
-            position,
-            birth,
-            death,
-            cause,
-            form,
-            length,
-            width,
-            area: 0.0,
-            azimuth,
-            insertion,
-        };
-        let (length, width) = (laws.flower.length.draw(words, nth, at), laws.flower.width.draw(words, nth, at));
-        let flower = organ(laws.flower.kind, laws.flower.form, birth, end, length, width);
-        let fruit = (end.1 == Cause::FruitSet).then(|| {
-            let ripe = fall.saturating_add(laws.fruit_life.draw(words, nth, at).max(1));
-            let (length, width) = (laws.fruit.length.draw(words, nth, at), laws.fruit.width.draw(words, nth, at));
-            let end = first_end((ripe, Cause::LifeLength), fruit_eaten);
-            organ(laws.fruit.kind, laws.fruit.form, fall, end, length, width)
-        });
-        let last = self.model.until();
-        let planned = [Some(flower), fruit].into_iter().flatten();
-        planned.filter(|organ| organ.birth <= last).for_each(|organ| {
+        let fall = flower_fall(laws, &self.words.on_node, site, at);
+        let eaten = [
+            self.eaten(|exposure| &exposure.flower, site.birth, PLACE_OF_EATEN_FLOWERS + site.nth),
+            self.eaten(|exposure| &exposure.fruit, fall, PLACE_OF_EATEN_FRUITS + site.nth),
+        ];
+        let bloom = Bloom::of(laws, &self.words.on_node, site, eaten, at);
+        bloom.by(self.model.until()).for_each(|organ| {
             self.plant.add_organ(organ);
         });
-        fruit.map_or(flower.death, |fruit| fruit.death)
-    }
-}
-
-/// The first tick after a birth that is the tick `fall` of a year of `year` ticks.
-fn fall_of_year(year: u32, fall: u32, birth: Tick) -> Tick {
-    let (year, fall) = (u64::from(year), u64::from(fall));
-    let wait = (fall + year - u64::from(birth) % year) % year;
-    let wait = if wait == 0 { year } else { wait };
-    u32::try_from(u64::from(birth) + wait).unwrap_or(NEVER)
-}
-
-/// The tick at which a leaf falls and why, by its life length or by the season, which makes it fall at `seasonal`.
-fn leaf_fall(seasonal: Tick, birth: Tick, life: Option<u32>) -> (Tick, Cause) {
-    let aged = life.map_or(NEVER, |life| birth.saturating_add(life.max(1)));
-    match (aged.min(seasonal), aged <= seasonal) {
-        (NEVER, _) => (NEVER, Cause::None),
-        (tick, true) => (tick, Cause::LifeLength),
-        (tick, false) => (tick, Cause::Season),
+        bloom.end()
     }
 }

@@ -3,9 +3,14 @@
 //! The words of responses and pests come from streams of their own, in records whose places are fixed: a record of the
 //! species' own words is the same whether something responds or not. Absent: which slot is for what (`compile::words`).
 
+use super::columns::Columns;
 use super::compile::{NODE_OF_RESPONSES, OrderLaws, Ranks, STEP_OF_RESPONSES, Spare};
+use super::plan::Plan;
 use phytomer_sim::plant::LineageKey;
 use phytomer_sim::random::{PlantRandom, Purpose, Stream};
+
+/// No node has as many things of one kind.
+const MOST_ON_NODE: usize = 64;
 
 /// The words of one axis.
 #[derive(Debug, Default)]
@@ -25,6 +30,12 @@ pub(super) struct Words {
     pub zones: Vec<Ranks>,
     /// Whether the bud lacks light.
     pub shaded: bool,
+    /// The nodes that the axis has decided on and has yet to make.
+    pub plan: Plan,
+    /// Their records.
+    pub nodes: Vec<u32>,
+    /// Room for making them.
+    pub columns: Columns,
 }
 
 impl Words {
@@ -70,6 +81,20 @@ impl Words {
         if !of.spare.places().is_empty() && (self.shaded || !laws.light_alone) {
             let stream = self.node_response.get_or_insert_with(|| random.stream(key, Purpose::NodeResponse));
             read_spare(stream, start(node, NODE_OF_RESPONSES), &of.spare, &mut self.on_node[of.width..]);
+        }
+    }
+
+    /// Reads the records of the nodes that are planned, with as many words behind them as there can be things of one
+    /// kind on a node; `made` nodes of the axis are made.
+    pub fn read_nodes(&mut self, laws: &OrderLaws, random: &PlantRandom, key: LineageKey, made: u32) {
+        let into = &mut self.nodes;
+        let (width, nodes) = (laws.node.width, self.plan.nodes() as usize);
+        let words = nodes * width;
+        into.resize(into.len().max(words + MOST_ON_NODE), 0);
+        if width > 0 {
+            let stream = self.node.get_or_insert_with(|| random.stream(key, Purpose::Node));
+            stream.seek(start(made, width as u32));
+            stream.read(&mut into[..words]);
         }
     }
 

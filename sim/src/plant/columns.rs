@@ -59,6 +59,13 @@ macro_rules! columns {
                 $(self.$column.push($value);)*
             }
 
+            /// Adds many entries, column by column; each has a component number.
+            // Columns that are written in another way when many entries are added do not need it.
+            #[allow(dead_code, unused_variables)]
+            pub(super) fn extend_columns(&mut self, entries: &[$entry_type], components: &[u32]) {
+                $(self.$column.extend(entries.iter().zip(components).map(|(&$entry, &$component)| $value));)*
+            }
+
             /// Empties every column and keeps the memory.
             pub(super) fn clear(&mut self) {
                 $(self.$column.clear();)*

@@ -91,7 +91,12 @@ pub struct Formation(u8);
 
 impl Formation {
     fn of(node: &NewNode) -> Self {
-        Self(u8::from(node.short) | u8::from(node.neoformed) << 1)
+        Self::new(node.short, node.neoformed)
+    }
+
+    #[inline]
+    pub(super) fn new(short: bool, neoformed: bool) -> Self {
+        Self(u8::from(short) | u8::from(neoformed) << 1)
     }
 
     /// Whether the growth unit is of the short type.
@@ -105,15 +110,26 @@ impl Formation {
     }
 }
 
+/// The number of a growth unit or of a clock step in its column.
+#[inline]
+pub(super) fn told(number: u32) -> u16 {
+    u16::try_from(number).unwrap_or(NOT_TOLD)
+}
+
+/// A number of axillary buds in its column.
+#[inline]
+pub(super) fn buds_told(buds: u32) -> u8 {
+    u8::try_from(buds).unwrap_or(BUDS_NOT_TOLD)
+}
+
 impl Nodes {
     /// States how a bud made a node: the number of the growth unit and the clock step of the axis, each from 1, and the
     /// axillary buds of the node. Numbers too great for their columns are not told.
     #[inline]
     pub fn state_making(&mut self, node: NodeId, growth_unit: u32, cycle: u32, axillary_buds: u32) {
-        let told = |number: u32| u16::try_from(number).unwrap_or(NOT_TOLD);
         self.growth_unit[node.index()] = told(growth_unit);
         self.cycle[node.index()] = told(cycle);
-        self.axillary_buds[node.index()] = u8::try_from(axillary_buds).unwrap_or(BUDS_NOT_TOLD);
+        self.axillary_buds[node.index()] = buds_told(axillary_buds);
     }
 
     /// The nodes of a run.

@@ -22,8 +22,6 @@ pub struct HeadLaws {
     pub width: usize,
     /// Whether growth uses a word of the record, which is then read each time the axis grows on.
     pub guides_growth: bool,
-    /// Whether some word of the record is used at the birth of an axis.
-    pub marks_birth: bool,
     /// The growth units after which the apex ends.
     pub units: Option<Number>,
     /// The insertion of an axis out of the seed.
@@ -64,7 +62,6 @@ impl HeadLaws {
         Self {
             width: head.width(),
             guides_growth: units.as_ref().is_some_and(is_drawn) || is_drawn(&speed.pick) || trends.has_drawn_ranks(),
-            marks_birth: shed_after.as_ref().is_some_and(is_drawn) || trends.has_own(),
             units,
             insertion,
             speed,

@@ -31,7 +31,7 @@ pub(super) use node::{
 };
 pub(super) use relay::EndLaws;
 pub(super) use step::{PLACE_OF_DEATH, PLACE_OF_WEAKNESS, Passage, STEP_OF_RESPONSES, StepLaws};
-pub(super) use words::{Chance, Spare};
+pub(super) use words::{Chance, Draws, Piece, Spare, Things};
 pub(super) use zone::{Ramification, Ranks};
 
 use super::params::Buds;

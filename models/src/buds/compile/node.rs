@@ -35,6 +35,10 @@ pub const PLACE_OF_EATEN_FLOWERS: u32 = PLACE_OF_EATEN_LEAVES + MOST_ORGANS;
 pub const PLACE_OF_EATEN_FRUITS: u32 = PLACE_OF_EATEN_FLOWERS + MOST_ORGANS;
 pub const NODE_OF_RESPONSES: u32 = PLACE_OF_EATEN_FRUITS + MOST_ORGANS;
 
+/// The words of the nodes that are made at once, where that is between 16 and 256 nodes: they stay in the caches that
+/// are nearest, and an axis that outgrows its plant's limit has no more in hand.
+const WORDS_OF_BLOCK: usize = 4096;
+
 /// The laws of one node of an order.
 #[derive(Debug, Clone)]
 pub struct NodeLaws {
@@ -44,6 +48,10 @@ pub struct NodeLaws {
     pub spare: Spare,
     /// Whether no node bears anything: neither leaf nor flower nor bud.
     pub is_bare: bool,
+    /// The most nodes that an axis makes at a step of its clock.
+    pub most_nodes: u32,
+    /// The most nodes that are made at once; 0 where nodes are made one by one.
+    pub block: u32,
     pub long_length: Measure,
     pub short_length: Measure,
     pub diameter: Measure,
@@ -120,6 +128,7 @@ impl NodeLaws {
         let budless = axillary.count.table.max() == 0 && reiteration.count.table.max() == 0;
         Self {
             is_bare: is_bare && budless,
+            most_nodes: step.most_nodes().now.saturating_mul(step.per_step.table.max()),
             long_length: words.measure(long_length, CM, 1),
             short_length: words.measure(short_length, CM, 1),
             diameter: words.measure(diameter, MM, 1),
@@ -141,6 +150,7 @@ impl NodeLaws {
             fruit: fruit(order, flower_angle, compiler, words, most_flowers),
             leaf_fall: season.and_then(|season| LeafFall::compile(season, compiler, words, most_leaves)),
             width: layout.width(),
+            block: (WORDS_OF_BLOCK / layout.width().max(1)).clamp(16, 256) as u32,
             spare: Spare::after(layout.width()),
         }
     }

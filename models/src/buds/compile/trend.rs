@@ -90,6 +90,15 @@ impl Trends {
         self.own.iter().map(move |(inclination, share)| tendency(draw(inclination), draw(share)))
     }
 
+    /// The trend of every node of every axis, where there is but one.
+    #[inline]
+    pub fn only(&self) -> Option<u8> {
+        match self.phases.as_slice() {
+            [only] if !self.by_state => Some(only.1),
+            _ => None,
+        }
+    }
+
     /// The trend of the node at `rank` along the axis, which is in `state`; `drawn` are the ranks that the axis has
     /// drawn, if any.
     #[inline]

@@ -5,8 +5,12 @@
 //! record does not depend on how long the run lasts: a quantity that could be drawn in a longer run alone has its words
 //! in a shorter run too. What responses need beyond it has a stream of its own ([`Spare`]).
 
+mod many;
+
+pub use many::{Draws, Outcome, Piece, Things};
+
 use super::change::{ByAge, Change, nodes_times};
-use crate::law::{At, CountTable, ProbabilityTable, Variable, VariateTable, happens};
+use crate::law::{At, CountTable, ProbabilityTable, Threshold, Variable, VariateTable};
 
 /// Assigns the slots of one record.
 #[derive(Debug, Default)]
@@ -47,7 +51,7 @@ impl Layout {
     pub fn measure(&mut self, table: VariateTable, unit: f32, times: u32) -> Measure {
         let fixed = table.constant().map(|value| value * unit);
         let slot = self.take(fixed.is_none() && table.is_random(), times);
-        Measure { table, slot, unit, fixed, times: None }
+        Measure { table, slot, unit, fixed, times: None, light_alone: false }
     }
 }
 
@@ -125,24 +129,30 @@ impl Chance {
     // Called for each bud and node: without responses it is what it was without them.
     #[inline(always)]
     pub fn happens(&self, words: &[u32], nth: u32, at: At) -> bool {
+        self.outcome(at).happens(|| self.word(words, nth))
+    }
+
+    /// Whether the event happens at a point.
+    #[inline(always)]
+    pub fn outcome(&self, at: At) -> Outcome {
         let changes = self.change.is_some() && !(self.light_alone && at.shade == 0);
-        match (changes.then(|| self.responded(words, nth, at)).flatten(), self.fixed) {
-            (Some(happens), _) => happens,
-            (None, Some(fixed)) => fixed,
-            (None, None) => self.table.happens(self.slot.word(words, nth), at),
+        match (changes.then(|| self.responded(at)).flatten(), self.fixed) {
+            (Some(threshold), _) => Outcome::Drawn(threshold),
+            (None, Some(fixed)) => Outcome::Fixed(fixed),
+            (None, None) => Outcome::Drawn(self.table.threshold(at)),
         }
     }
 
-    /// Whether the event happens where responses change its probability; `None` where they do not.
+    /// The threshold where responses change the probability; `None` where they do not.
     #[inline(never)]
-    fn responded(&self, words: &[u32], nth: u32, at: At) -> Option<bool> {
+    fn responded(&self, at: At) -> Option<Threshold> {
         let changes = self.change.as_ref().is_some_and(|change| !change.is_neutral_at(at));
-        changes.then(|| happens(self.probability(at), self.word(words, nth)))
+        changes.then(|| Threshold::of(self.probability(at)))
     }
 
     /// The word of the `nth` test, where it has one.
     #[inline]
-    fn word(&self, words: &[u32], nth: u32) -> u32 {
+    pub fn word(&self, words: &[u32], nth: u32) -> u32 {
         self.slot.word(words, nth)
     }
 
@@ -200,8 +210,17 @@ impl Number {
     }
 
     /// The number drawn, the `nth` time (from 0) in this record.
-    #[inline]
+    // Called several times a step: most numbers are fixed.
+    #[inline(always)]
     pub fn draw(&self, words: &[u32], nth: u32, at: At) -> u32 {
+        match (self.fixed, &self.times) {
+            (Some(fixed), None) => fixed,
+            _ => self.drawn(words, nth, at),
+        }
+    }
+
+    #[inline(never)]
+    fn drawn(&self, words: &[u32], nth: u32, at: At) -> u32 {
         let own = match self.fixed {
             Some(fixed) => fixed,
             None => self.table.sample(self.slot.word(words, nth), at),
@@ -241,6 +260,8 @@ pub struct Measure {
     fixed: Option<f32>,
     /// The factor of responses.
     times: Option<ByAge>,
+    /// Whether nothing but shade changes it.
+    light_alone: bool,
 }
 
 impl Measure {
@@ -264,11 +285,12 @@ impl Measure {
     /// A value under responses.
     #[inline(never)]
     fn responded(&self, own: f32, at: At) -> f32 {
-        self.times.as_ref().map_or(own, |factor| own * factor.at(at) as f32)
+        self.times.as_ref().map_or(own, |factor| many::times(own, factor.at(at)))
     }
 
     /// Multiplies the measure by a factor.
     pub fn respond(&mut self, factor: ByAge) {
+        self.light_alone = factor.is_of_light_alone();
         self.times = Some(factor);
     }
 }

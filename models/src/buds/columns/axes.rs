@@ -1,0 +1,143 @@
+//! The axes that arise from the buds of a block of nodes: axillary buds that ramify, and reiteration buds.
+//!
+//! Whether a bud becomes an axis is tested for all buds at once, or node by node where there are zones; the few that do
+//! are drawn one by one.
+
+use super::block::Block;
+use crate::buds::birth::shed_after;
+use crate::buds::compile::Things;
+use crate::buds::site::{Bearing, BudSite, spacing};
+use crate::law::At;
+use phytomer_sim::plant::{Dormant, NewAxis, Plant};
+
+/// A bud that becomes an axis.
+#[derive(Debug, Clone, Copy)]
+struct Released {
+    node: u32,
+    position: u32,
+    reiterates: bool,
+    /// The state that its zone states.
+    state: Option<u8>,
+}
+
+/// The axes of a block.
+#[derive(Debug, Default)]
+pub struct NewAxes {
+    buds: Things,
+    reiterations: Things,
+    numbers: Vec<u32>,
+    released: Vec<Released>,
+    pub rows: Vec<NewAxis>,
+}
+
+impl NewAxes {
+    /// Draws the axes of a block, whose nodes have `buds` axillary buds, from the azimuths `first` on and `spacing`
+    /// apart.
+    pub fn draw(&mut self, block: &Block<'_>, nodes: &Things, buds: &[u32], first: &[f32], spacing: &[f32]) {
+        self.released.clear();
+        self.rows.clear();
+        self.ramify(block, buds);
+        self.reiterate(block, nodes);
+        let mut piece = 0;
+        for &released in &self.released {
+            while block.pieces[piece].nodes.1 <= released.node {
+                piece += 1;
+            }
+            let node = released.node as usize;
+            let at = block.pieces[piece].at(node);
+            let new = self.axis(block, released, at, (first[node], spacing[node]));
+            self.rows.push(new);
+        }
+    }
+
+    /// Which axillary buds ramify.
+    fn ramify(&mut self, block: &Block<'_>, buds: &[u32]) {
+        let laws = &block.laws.node;
+        if laws.axillary.count.fixed() == Some(0) || !block.model.has_order(block.laws.number + 1) {
+            return;
+        }
+        let Self { buds: things, released, .. } = self;
+        let Some(zones) = &laws.zones else {
+            things.set(buds, laws.width);
+            let mut node = 0;
+            laws.axillary.chance.test_many(block.draws(things), |bud| {
+                while things.of(node).end <= bud {
+                    node += 1;
+                }
+                let position = (bud - things.of(node).start) as u32;
+                released.push(Released { node: node as u32, position, reiterates: false, state: None });
+            });
+            return;
+        };
+        block.each(|node, piece, at| {
+            let drawn = block.zones_of(piece);
+            let Some(of) = zones.ramification(at.rank, piece.unit_nodes, drawn, &laws.axillary.chance) else { return };
+            let (words, outcome) = (block.record(node), of.chance.outcome(at));
+            for position in 0..buds[node] {
+                if outcome.happens(|| of.chance.word(words, position)) {
+                    let state = of.state(words, position, at);
+                    released.push(Released { node: node as u32, position, reiterates: false, state });
+                }
+            }
+        });
+    }
+
+    /// Which reiteration buds become axes: they follow the axillary axes of their node.
+    fn reiterate(&mut self, block: &Block<'_>, nodes: &Things) {
+        let laws = &block.laws.node.reiteration;
+        if laws.count.fixed() == Some(0) {
+            return;
+        }
+        laws.count.draw_many(block.draws(nodes), &mut self.numbers);
+        self.reiterations.set(&self.numbers, block.laws.node.width);
+        let Self { reiterations, released, .. } = self;
+        let axillary = released.len();
+        let mut node = 0;
+        laws.chance.test_many(block.draws(reiterations), |bud| {
+            while reiterations.of(node).end <= bud {
+                node += 1;
+            }
+            let position = (bud - reiterations.of(node).start) as u32;
+            released.push(Released { node: node as u32, position, reiterates: true, state: None });
+        });
+        if released.len() > axillary {
+            released.sort_by_key(|released| (released.node, released.reiterates));
+        }
+    }
+
+    /// The axis of a bud, with what it draws at its birth.
+    fn axis(&self, block: &Block<'_>, of: Released, at: At, (first, between): (f32, f32)) -> NewAxis {
+        let Released { node, position, reiterates, state } = of;
+        let (laws, node) = (&block.laws.node, node as usize);
+        let bearing = Bearing { key: block.key, state: at.state };
+        let (id, rank) = (block.id(node), block.rank(node));
+        let new = if reiterates {
+            let place = (first + between / 2.0, spacing(self.numbers[node]));
+            let site = BudSite::reiteration(id, (laws.reiteration_order, rank), position, place);
+            site.axis(&laws.reiteration, block.record(node), bearing, at)
+        } else {
+            let site = BudSite::axillary(id, (block.laws.number + 1, rank), position, (first, between));
+            BudSite { state, ..site }.axis(&laws.axillary, block.record(node), bearing, at)
+        };
+        NewAxis { shed_after: shed_after(block.model, block.random, &new), ..new }
+    }
+
+    /// The axillary buds of a node that lie dormant, one bit a position.
+    pub fn dormant(&self, node: usize, buds: u32) -> u32 {
+        let all = if buds >= 32 { u32::MAX } else { (1 << buds) - 1 };
+        let start = self.released.partition_point(|released| (released.node as usize) < node);
+        let of_node = self.released[start..].iter().take_while(|released| released.node as usize == node);
+        of_node.filter(|released| !released.reiterates).fold(all, |all, released| all & !(1 << released.position))
+    }
+
+    /// Writes down the dormant buds of every node.
+    pub fn remember_dormant(&self, plant: &mut Plant, block: &Block<'_>, buds: &[u32], spacing: &[f32]) {
+        block.each(|node, piece, _| {
+            if buds[node] > 0 {
+                let dormant = self.dormant(node, buds[node]);
+                let of = Dormant { buds: dormant, spacing: spacing[node], state: piece.at.state };
+                plant.dormant.set(block.id(node), of);
+            }
+        });
+    }
+}

@@ -1,0 +1,75 @@
+//! A block of nodes of one axis that are made at once: what is known of them before anything is drawn.
+//!
+//! Absent: the columns themselves (`nodes`, `leaves`, `flowers`, `buds`).
+
+use crate::buds::bud::ApicalBud;
+use crate::buds::compile::{BudModel, Draws, OrderLaws, Piece, Ranks, Things};
+use crate::law::At;
+use phytomer_sim::plant::{LineageKey, NodeId};
+use phytomer_sim::random::PlantRandom;
+
+/// A block of nodes of one axis.
+#[derive(Clone, Copy)]
+pub struct Block<'a> {
+    pub model: &'a BudModel,
+    pub laws: &'a OrderLaws,
+    /// The draws of the plant.
+    pub random: &'a PlantRandom,
+    /// The growth units of the nodes.
+    pub pieces: &'a [Piece],
+    /// The ranks of the zones that growth units have drawn.
+    pub zones: &'a [Ranks],
+    /// The ranks from which the axis's trends hold, where it draws them.
+    pub trends: &'a [(u32, u8)],
+    /// The records of the nodes.
+    pub words: &'a [u32],
+    /// The lineage key of the axis.
+    pub key: LineageKey,
+    /// The bud before it makes them.
+    pub bud: ApicalBud,
+    /// The handle of the first node.
+    pub first: NodeId,
+}
+
+impl<'a> Block<'a> {
+    /// The number of nodes.
+    pub fn nodes(&self) -> usize {
+        self.pieces.last().map_or(0, |piece| piece.nodes.1 as usize)
+    }
+
+    /// The handle of the node at a place of the block.
+    #[inline]
+    pub fn id(&self, node: usize) -> NodeId {
+        NodeId(self.first.0 + node as u32)
+    }
+
+    /// The rank along the axis of the node at a place of the block.
+    #[inline]
+    pub fn rank(&self, node: usize) -> u32 {
+        self.bud.rank + 1 + node as u32
+    }
+
+    /// The record of the node at a place of the block.
+    #[inline]
+    pub fn record(&self, node: usize) -> &'a [u32] {
+        &self.words[node * self.laws.node.width..]
+    }
+
+    /// The draws of things of all nodes.
+    pub fn draws(&self, things: &'a Things) -> Draws<'a> {
+        Draws { words: self.words, pieces: self.pieces, things }
+    }
+
+    /// Every node with its growth unit and the point of its laws, in their order.
+    pub fn each(&self, mut told: impl FnMut(usize, &Piece, At)) {
+        for piece in self.pieces {
+            piece.places().for_each(|node| told(node, piece, piece.at(node)));
+        }
+    }
+
+    /// The ranks of the zones that the growth unit of a piece has drawn, if any.
+    #[inline]
+    pub fn zones_of(&self, piece: &Piece) -> &'a [Ranks] {
+        &self.zones[piece.zones.0 as usize..piece.zones.1 as usize]
+    }
+}

@@ -1,0 +1,145 @@
+//! All nodes that an axis has decided on, made at once: a column at a time instead of node by node.
+//!
+//! The words of the nodes are read in bulk; one loop a column draws lengths, angles, leaves, lives, flowers with their
+//! fruits, and buds; prefix sums give the component numbers. The plant is the same to the bit as node by node (`node`),
+//! where an axis goes that meets obstacles, has pests, or responds node by node. Both ways share
+//! their formulas (`compile`, `site`, `lives`). Absent: the steps at which the axis decides (`grow`).
+
+mod axes;
+mod block;
+mod flowers;
+mod leaves;
+mod nodes;
+mod numbers;
+
+pub use block::Block;
+
+use super::birth::give_trends;
+use super::bud::ApicalBud;
+use super::compile::Things;
+use super::plan::Plan;
+use super::site;
+use axes::NewAxes;
+use flowers::Flowers;
+use leaves::Leaves;
+use nodes::NodeColumns;
+use numbers::Numbers;
+use phytomer_sim::plant::{AxisId, Event, EventKind, NewAxis, NewNodes, Origin, Plant};
+
+/// Room for the columns of a block, which all axes use in turn.
+#[derive(Debug, Default)]
+pub struct Columns {
+    of_nodes: Things,
+    nodes: NodeColumns,
+    /// The numbers of leaves, of flowers and of axillary buds of each node.
+    leaf_numbers: Vec<u32>,
+    flower_numbers: Vec<u32>,
+    bud_numbers: Vec<u32>,
+    /// The angle between two neighbouring positions around each node, radians.
+    spacing: Vec<f32>,
+    leaves: Leaves,
+    flowers: Flowers,
+    axes: NewAxes,
+    numbers: Numbers,
+}
+
+impl Columns {
+    /// Makes the nodes of a block. Returns the bud after them, or `None` where the plant has no room for them; it then
+    /// has none of them.
+    pub fn make(&mut self, block: &Block<'_>, plant: &mut Plant, plan: &Plan) -> Option<ApicalBud> {
+        let azimuth = self.draw(block);
+        self.write(block, plant, plan).then(|| self.bud_after(block, azimuth))
+    }
+
+    /// Draws everything of a block. Returns the azimuth of the node after the last.
+    fn draw(&mut self, block: &Block<'_>) -> f32 {
+        let laws = &block.laws.node;
+        self.of_nodes.set_nodes(block.nodes(), laws.width);
+        let azimuth = self.nodes.draw(block, &self.of_nodes);
+        if laws.is_bare {
+            self.bud_numbers.clear();
+            self.bud_numbers.resize(block.nodes(), 0);
+            return azimuth;
+        }
+        let draws = block.draws(&self.of_nodes);
+        laws.leaves.draw_many(draws, &mut self.leaf_numbers);
+        laws.flowers.draw_many(draws, &mut self.flower_numbers);
+        laws.axillary.count.draw_many(draws, &mut self.bud_numbers);
+        let places = self.leaf_numbers.iter().zip(&self.bud_numbers).map(|(&leaves, &buds)| leaves.max(buds));
+        self.spacing.clear();
+        self.spacing.extend(places.map(site::spacing));
+        let first = &self.nodes.azimuth;
+        self.leaves.draw(block, &self.leaf_numbers, first, &self.spacing);
+        let between = |node: usize| {
+            site::spacing(self.flower_numbers[node].max(self.leaf_numbers[node]).max(self.bud_numbers[node]))
+        };
+        self.flowers.draw(block, &self.flower_numbers, first, between);
+        self.axes.draw(block, &self.of_nodes, &self.bud_numbers, first, &self.spacing);
+        azimuth
+    }
+
+    /// Writes what was drawn into the columns of the plant. Whether the plant has room for it.
+    fn write(&mut self, block: &Block<'_>, plant: &mut Plant, plan: &Plan) -> bool {
+        if block.laws.node.is_bare {
+            self.leaves.clear();
+            self.flowers.rows.clear();
+            self.axes.rows.clear();
+        }
+        let axes = self.axes.rows.as_slice();
+        let components = block.nodes() + self.leaves.rows.len() + self.flowers.rows.len() + axes.len();
+        let Some(first) = plant.take_numbers(components as u32) else { return false };
+        self.numbers.set(block, first, &self.leaves, &self.flowers.rows, axes);
+        plant.add_organs(self.numbers.in_order(&self.leaves), &self.numbers.organs);
+        let nodes = &self.nodes;
+        plant.add_nodes(&NewNodes {
+            axis: block.bud.axis,
+            parent: block.bud.last_node,
+            rank: block.rank(0),
+            units: &nodes.units,
+            component: &self.numbers.nodes,
+            axillary_buds: &self.bud_numbers,
+            trend: &nodes.trend,
+            length: &nodes.length,
+            diameter: &nodes.diameter,
+            azimuth: &nodes.azimuth,
+        });
+        let first = plant.add_axes(axes, &self.numbers.axes);
+        for (place, axis) in axes.iter().enumerate() {
+            give_trends(block.model, plant, axis, AxisId(first.0 + place as u32));
+        }
+        if plant.dormant.are_kept() && !block.laws.node.is_bare {
+            self.axes.remember_dormant(plant, block, &self.bud_numbers, &self.spacing);
+        }
+        note_events(block, plant, plan, axes, first);
+        true
+    }
+
+    /// The bud when it has made the nodes.
+    fn bud_after(&self, block: &Block<'_>, azimuth: f32) -> ApicalBud {
+        let (bud, last) = (block.bud, block.nodes() - 1);
+        let made = ApicalBud { azimuth, rank: block.rank(last), last_node: block.id(last), passages: 0, ..bud };
+        if block.laws.node.is_bare {
+            return ApicalBud { dormant: 0, ..made };
+        }
+        let dormant = self.axes.dormant(last, self.bud_numbers[last]);
+        ApicalBud { dormant, bud_spacing: self.spacing[last], ..made }
+    }
+}
+
+/// Writes down the events of a block, where the plant keeps them: those of the bud, and between them, node by node, the
+/// axes that arise.
+fn note_events(block: &Block<'_>, plant: &mut Plant, plan: &Plan, axes: &[NewAxis], first: AxisId) {
+    let Some(events) = &mut plant.events else { return };
+    let mut own = plan.events.as_slice();
+    for (place, new) in axes.iter().enumerate() {
+        let node = new.bearer.map_or(0, |bearer| bearer.0 - block.first.0);
+        let before = own.iter().take_while(|(nodes, _)| *nodes <= node).count();
+        let (earlier, later) = own.split_at(before);
+        events.extend(earlier.iter().map(|(_, event)| *event));
+        own = later;
+        let kind = if new.origin == Origin::Adaptive { EventKind::Reiterated } else { EventKind::Branched };
+        let axis = AxisId(first.0 + place as u32);
+        events.push(Event { tick: new.appearance, axis, kind, count: 1, state: new.state });
+    }
+    events.extend(own.iter().map(|(_, event)| *event));
+}

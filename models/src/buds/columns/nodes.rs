@@ -1,0 +1,67 @@
+//! The columns of nodes: lengths, diameters, azimuths, trends.
+
+use super::block::Block;
+use crate::buds::compile::{Draws, Things};
+use crate::buds::site::turned;
+use phytomer_sim::plant::OfUnit;
+
+/// What is drawn and counted for the nodes of a block.
+#[derive(Debug, Default)]
+pub struct NodeColumns {
+    pub units: Vec<OfUnit>,
+    pub length: Vec<f32>,
+    pub diameter: Vec<f32>,
+    divergence: Vec<f32>,
+    pub azimuth: Vec<f32>,
+    pub trend: Vec<u8>,
+}
+
+impl NodeColumns {
+    /// Draws the internodes of a block. Returns the azimuth of the node after the last.
+    pub fn draw(&mut self, block: &Block<'_>, nodes: &Things) -> f32 {
+        let laws = &block.laws.node;
+        for column in [&mut self.length, &mut self.diameter, &mut self.divergence] {
+            column.resize(block.nodes(), 0.0);
+        }
+        for alike in block.pieces.chunk_by(|one, next| one.short == next.short) {
+            let law = if alike[0].short { &laws.short_length } else { &laws.long_length };
+            law.draw_many(Draws { pieces: alike, ..block.draws(nodes) }, &mut self.length, |length| length);
+        }
+        laws.diameter.draw_many(block.draws(nodes), &mut self.diameter, |diameter| diameter);
+        laws.divergence.draw_many(block.draws(nodes), &mut self.divergence, |divergence| divergence);
+        self.set_trends(block);
+        self.set_units(block);
+        self.azimuth.clear();
+        let mut azimuth = block.bud.azimuth;
+        self.azimuth.extend(self.divergence.iter().map(|&divergence| {
+            let here = azimuth;
+            azimuth = turned(azimuth, divergence);
+            here
+        }));
+        azimuth
+    }
+
+    fn set_trends(&mut self, block: &Block<'_>) {
+        let trends = &block.laws.head.trends;
+        self.trend.clear();
+        match trends.only() {
+            Some(only) => self.trend.resize(block.nodes(), only),
+            None => block.each(|node, piece, _| {
+                self.trend.push(trends.at(block.rank(node), piece.at.state, block.trends));
+            }),
+        }
+    }
+
+    fn set_units(&mut self, block: &Block<'_>) {
+        self.units.clear();
+        self.units.extend(block.pieces.iter().map(|piece| OfUnit {
+            nodes: piece.nodes.1 - piece.nodes.0,
+            first: piece.first,
+            preformed: piece.preformed,
+            short: piece.short,
+            birth: piece.at.age,
+            growth_unit: piece.at.unit + 1,
+            cycle: piece.at.cycle,
+        }));
+    }
+}

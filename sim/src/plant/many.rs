@@ -1,0 +1,129 @@
+//! Components added many at once: the columns grow by slices instead of entry by entry.
+//!
+//! The plant is the same as if its model had added them one by one: the model states the component numbers, in the
+//! order in which it would have added them. Absent: the entry of one component (`node`, `organ`, `axis`).
+
+use super::handle::{AxisId, NodeId};
+use super::node::{Formation, Nodes, buds_told, told};
+use super::{NewAxis, NewOrgan, Plant};
+use crate::clock::Tick;
+use std::iter::repeat_n;
+
+/// Neighbouring nodes of one growth unit.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct OfUnit {
+    /// How many they are.
+    pub nodes: u32,
+    /// The rank of the first in the growth unit, from 1.
+    pub first: u32,
+    /// The last rank that is preformed; later nodes are neoformed.
+    pub preformed: u32,
+    /// Whether the growth unit is of the short type.
+    pub short: bool,
+    /// The tick at which they appear.
+    pub birth: Tick,
+    /// The number of the growth unit on its axis, from 1.
+    pub growth_unit: u32,
+    /// The clock step of the axis, from 1.
+    pub cycle: u32,
+}
+
+/// Nodes that follow one another on one axis. Each slice has an entry a node.
+#[derive(Debug, Clone, Copy)]
+pub struct NewNodes<'a> {
+    /// The axis.
+    pub axis: AxisId,
+    /// The node at the base of the first; [`NodeId::NONE`] for the first internode of the trunk.
+    pub parent: NodeId,
+    /// The rank of the first along the axis, from 1.
+    pub rank: u32,
+    /// The growth units that they belong to, in their order. Their nodes are as many as each slice has entries.
+    pub units: &'a [OfUnit],
+    /// Component numbers.
+    pub component: &'a [u32],
+    /// Numbers of axillary buds.
+    pub axillary_buds: &'a [u32],
+    /// Trends, as places among the habit's trends, or the axis's own.
+    pub trend: &'a [u8],
+    /// Lengths, metres.
+    pub length: &'a [f32],
+    /// Diameters at birth, metres.
+    pub diameter: &'a [f32],
+    /// Azimuths, radians.
+    pub azimuth: &'a [f32],
+}
+
+impl Plant {
+    /// Takes the next `count` component numbers and returns the first of them, or `None` where the plant has no room
+    /// for so many. Each of them must be given to one of the components that are added next.
+    pub fn take_numbers(&mut self, count: u32) -> Option<u32> {
+        let first = self.components;
+        self.has_room_for(count).then(|| {
+            self.components += count;
+            first
+        })
+    }
+
+    /// Adds nodes at the tip of their axis. Linear in the nodes.
+    pub fn add_nodes(&mut self, new: &NewNodes<'_>) {
+        let first = self.nodes.len() as u32;
+        self.nodes.extend(new);
+        self.axes.grown(new.axis, NodeId(first + new.component.len() as u32 - 1));
+    }
+
+    /// Adds organs, each with its component number. Linear in the organs.
+    pub fn add_organs(&mut self, new: &[NewOrgan], components: &[u32]) {
+        self.organs.extend_columns(new, components);
+    }
+
+    /// Adds axes, each with its component number, and returns the first of them. Linear in the axes.
+    pub fn add_axes(&mut self, new: &[NewAxis], components: &[u32]) -> AxisId {
+        let first = AxisId(self.axes.len() as u32);
+        self.axes.extend_columns(new, components);
+        first
+    }
+}
+
+impl Nodes {
+    fn extend(&mut self, new: &NewNodes<'_>) {
+        let (first, count) = (self.len() as u32, new.component.len());
+        if self.axis.last() != Some(&new.axis) {
+            self.runs.push(NodeId(first));
+        }
+        self.parent.push(new.parent);
+        self.parent.extend((first..first + count as u32 - 1).map(NodeId));
+        self.axis.extend(repeat_n(new.axis, count));
+        self.component.extend_from_slice(new.component);
+        self.rank.extend(new.rank..new.rank + count as u32);
+        self.axillary_buds.extend(new.axillary_buds.iter().map(|&buds| buds_told(buds)));
+        self.trend.extend_from_slice(new.trend);
+        self.length.extend_from_slice(new.length);
+        self.azimuth.extend_from_slice(new.azimuth);
+        for column in [&mut self.primary_diameter, &mut self.diameter, &mut self.diameter_tip] {
+            column.extend_from_slice(new.diameter);
+        }
+        self.extend_by_unit(new.units, count);
+    }
+
+    /// The columns of which the growth unit decides.
+    fn extend_by_unit(&mut self, units: &[OfUnit], count: usize) {
+        let in_unit = |rank: u32| u16::try_from(rank).unwrap_or(u16::MAX);
+        let formation = |of: &OfUnit, rank: u32| Formation::new(of.short, rank > of.preformed);
+        if units.len() == count {
+            self.birth.extend(units.iter().map(|of| of.birth));
+            self.unit_rank.extend(units.iter().map(|of| in_unit(of.first)));
+            self.growth_unit.extend(units.iter().map(|of| told(of.growth_unit)));
+            self.cycle.extend(units.iter().map(|of| told(of.cycle)));
+            self.formation.extend(units.iter().map(|of| formation(of, of.first)));
+            return;
+        }
+        for of in units {
+            let (nodes, ranks) = (of.nodes as usize, of.first..of.first + of.nodes);
+            self.birth.extend(repeat_n(of.birth, nodes));
+            self.unit_rank.extend(ranks.clone().map(in_unit));
+            self.growth_unit.extend(repeat_n(told(of.growth_unit), nodes));
+            self.cycle.extend(repeat_n(told(of.cycle), nodes));
+            self.formation.extend(ranks.map(|rank| formation(of, rank)));
+        }
+    }
+}
