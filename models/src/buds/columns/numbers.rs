@@ -20,7 +20,8 @@ impl Numbers {
     /// Numbers the components of a block from `first` on.
     pub fn set(&mut self, block: &Block<'_>, first: u32, leaves: &Leaves, flowers: &[NewOrgan], axes: &[NewAxis]) {
         let Self { nodes, organs, axes: of_axes, mixed } = self;
-        (nodes.clear(), organs.clear(), of_axes.clear(), mixed.clear());
+        [&mut *nodes, &mut *organs, &mut *of_axes].into_iter().for_each(Vec::clear);
+        mixed.clear();
         let mut next = first;
         let mut number = |into: &mut Vec<u32>, count: usize| {
             let after = next + count as u32;
