@@ -183,7 +183,7 @@ fn tables_in_memory_have_the_rows_of_the_files() {
     let home = tempdir().unwrap();
     let plan = mixed_plan(2, 2);
     run_mixed(home.path(), plan.clone());
-    let mut tables = MemoryTables::of(&plan, &Arc::default());
+    let mut tables = MemoryTables::of(&plan, &std::sync::Arc::default());
     for id in 0..2 {
         let mut plot = mixed(id, 2, 100_000);
         let ending = grow(&mut plot, plan.until, &mut tables).unwrap();
