@@ -36,7 +36,7 @@ fn grown(model: &BudModel, number: u32, way: Way) -> Grown {
     plant.dormant.keep(keeps);
     let site = Site::default();
     let mut living = model.sow(&mut plant);
-    let mut ages = (1..=UNTIL).filter(|age| age % leap == 0 || *age == UNTIL);
+    let mut ages = (1..=UNTIL).filter(|age| age.is_multiple_of(leap) || *age == UNTIL);
     let end = ages.try_for_each(|age| model.grow_to(age, &mut plant, &mut living, &View::of(&site)));
     (plant, living, end)
 }
@@ -73,7 +73,7 @@ fn try_species(species: &mut RandomSpecies, number: u32) -> u64 {
     model.orders.iter_mut().for_each(|laws| laws.node.block = block);
     let slow = node_by_node(&model);
     let leap = [UNTIL, 9, 5][number as usize % 3];
-    let usual = Way { leap, threads: 1, limit: 60_000, keeps: number % 2 == 0 };
+    let usual = Way { leap, threads: 1, limit: 60_000, keeps: number.is_multiple_of(2) };
     let whole = grown(&model, number, usual);
     compare(&whole, &grown(&slow, number, usual), &format!("{number} {text}"));
     let components = whole.0.components();
