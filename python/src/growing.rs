@@ -1,7 +1,7 @@
 //! Growth on threads of its own, while the interpreter waits, tells its progress and hears Ctrl-C.
 //!
 //! The interpreter is released; it is asked for signals twenty times a second. Ctrl-C, or an exception of the
-//! function that is told the progress, stops growth and is raised at once or after [`PATIENCE`]. Growth that has not
+//! function that is told the progress, stops growth and is raised at once or after `PATIENCE`. Growth that has not
 //! ended by then ends by itself; before another run begins in this process it is waited for, so that a run folder is
 //! free again. Absent: the run itself (`phytomer::run`).
 

@@ -1,8 +1,8 @@
 //! The module of Python, `phytomer._phytomer`: what the package `phytomer` is made of.
 //!
-//! A file each: scenarios as Python states them ([`scenario`]), growth beside a waiting interpreter ([`growing`]), a
-//! run and its plants ([`run`]), tables as Arrow streams ([`table`]), meshes as arrays ([`mesh`]), and exceptions
-//! ([`raise`]). Nothing here is unsafe: Arrow's own stream goes into a capsule, and arrays are told by the address of
+//! A file each: scenarios as Python states them (`scenario`), growth beside a waiting interpreter (`growing`), a
+//! run and its plants (`run`), tables as Arrow streams (`table`), meshes as arrays (`mesh`), and exceptions
+//! (`raise`). Nothing here is unsafe: Arrow's own stream goes into a capsule, and arrays are told by the address of
 //! their numbers (`__array_interface__`). Absent: what is written in Python (`phytomer/`), such as the verbs that are
 //! called as programs.
 

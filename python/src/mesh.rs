@@ -1,6 +1,6 @@
 //! The mesh of a plant as arrays: vertices with their attributes, and triangles.
 //!
-//! Arrays are read in place: a [`Column`] tells numpy the address and the shape of its numbers by
+//! Arrays are read in place: a `Column` tells numpy the address and the shape of its numbers by
 //! `__array_interface__`, and numpy keeps the column alive for as long as an array shows it. Nothing changes a column
 //! after it is made, and the arrays cannot be written. Absent: formats, which `phytomer.mesh` writes.
 

@@ -1,6 +1,6 @@
 //! A run: its tables, and its plants grown again.
 //!
-//! Absent: growth ([`super::growing`]), and pictures and meshes, which are those of its plants ([`super::plants`]).
+//! Absent: growth (`growing`), and pictures and meshes, which are those of its plants (`plants`).
 
 use super::plants::{Again, Plants};
 use super::raise;
