@@ -9,6 +9,7 @@ use phytomer::outputs::exchange::{
     Description, Entity, InMemory, Incoming, Individual, Link, Losses, Report, Role, Value, by_word, grown,
 };
 use phytomer::run::regrowth::Regrowth;
+use phytomer::sim::Tick;
 use phytomer_config::{Kind, presets, validate_species};
 use program::run;
 use std::collections::BTreeMap;
@@ -19,8 +20,13 @@ use tempfile::tempdir;
 
 /// The first plant of a species as it is shown.
 fn plant_of(name: &str) -> Description {
-    let species = validate_species(name, 1).unwrap_or_else(|report| panic!("{}", report.render(false)));
-    let age = species.shown_at();
+    plant_at(name, None)
+}
+
+/// The first plant of a species at an age, or as it is shown.
+fn plant_at(name: &str, age: Option<Tick>) -> Description {
+    let species = validate_species(name, age.unwrap_or(1)).unwrap_or_else(|report| panic!("{}", report.render(false)));
+    let age = age.unwrap_or_else(|| species.shown_at());
     let resolved = species.alone(name);
     let mut description = grown::of_grown(None);
     let told = grown::Told { name: None, species: Some(name.to_owned()), place: None };
@@ -240,8 +246,9 @@ fn apart(a: &serde_json::Value, b: &serde_json::Value) -> f64 {
 fn other_readers_find_what_was_written() {
     let Some(python) = python() else { return };
     let folder = tempdir().unwrap();
-    for name in ["coffee", "bamboo", "oil_palm", "halle/leeuwenberg"] {
-        let plant = plant_of(name);
+    // Young plants, since the readers take minutes for a hundred thousand meshes.
+    for (name, age) in [("coffee", 30), ("bamboo", 12), ("oil_palm", 96), ("halle/leeuwenberg", 8)] {
+        let plant = plant_at(name, Some(age));
         let (opf, obj) = (folder.path().join("plant.opf"), folder.path().join("plant.obj"));
         fs::write(&opf, written(&plant, "opf").0.main).unwrap();
         let (mesh, _) = written(&plant, "obj");
