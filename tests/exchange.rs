@@ -4,50 +4,19 @@
 //! Absent: each rule of a format, which is tested beside it (`outputs/src/exchange`).
 
 mod program;
+mod trips;
 
-use phytomer::outputs::exchange::{Description, InMemory, Incoming, Losses, Report, Value, by_word, grown};
-use phytomer::run::regrowth::Regrowth;
-use phytomer_config::{Kind, presets, validate_species};
+use phytomer::outputs::exchange::{Description, InMemory, Value};
 use program::run;
 use std::fs;
 use std::path::Path;
 use std::process::Command;
 use tempfile::tempdir;
+use trips::{near, plant_of, read, species, written};
 
-/// The first plant of a species as it is shown, and its age.
-fn plant_of(name: &str) -> Description {
-    let species = validate_species(name, 1).unwrap_or_else(|report| panic!("{}", report.render(false)));
-    let age = species.shown_at();
-    let resolved = species.alone(name);
-    let mut description = grown::of_grown(None);
-    let told = grown::Told { name: None, species: Some(name.to_owned()), place: None };
-    Regrowth::of(&resolved)
-        .show(0, &[age], &mut |age, plant| {
-            grown::add(&mut description, plant, age, &told);
-            Ok(())
-        })
-        .unwrap_or_else(|error| panic!("{name}: {error}"));
-    description
-}
-
-fn written(description: &Description, format: &str) -> Vec<u8> {
-    let (mut out, mut losses) = (InMemory::default(), Losses::default());
-    by_word(format).unwrap().write(description, &mut out, &mut losses).unwrap();
-    out.main
-}
-
-fn read(bytes: &[u8], format: &str) -> Description {
-    let mut report = Report::new("plant");
-    let beside = |name: &str| Err(std::io::Error::other(name.to_owned()));
-    let incoming = Incoming { name: "plant", bytes, units: None, beside: &beside };
-    let description = by_word(format).unwrap().read(&incoming, &mut report);
-    assert!(
-        report.faults().is_empty() && report.warnings().is_empty(),
-        "{:?} {:?}",
-        report.faults(),
-        report.warnings()
-    );
-    description
+/// The plant of an MTG file.
+fn of_file(file: &Path) -> Description {
+    read(&InMemory { main: fs::read(file).unwrap(), ..InMemory::default() }, "mtg")
 }
 
 /// What an MTG keeps: the lines of both in the order of the file have the same topology, ranks and ages, and places and
@@ -84,44 +53,20 @@ fn same(name: &str, one: &Description, other: &Description) {
         assert_eq!(bearer, back.bearer.map(|at| of(at, true)), "{told}: bearer");
         assert_eq!(complex, back.complex.map(|at| of(at, true)), "{told}: complex");
         let (seen, again) = (entity.latest().unwrap(), back.latest().unwrap());
-        let close = |a: Option<f64>, b: Option<f64>, what: &str| {
-            let apart = a.zip(b).map_or(0.0, |(a, b)| (a - b).abs());
-            assert!(a.is_some() == b.is_some() && apart <= 1e-6, "{told}: {what} {a:?} {b:?}");
-        };
-        close(seen.length, again.length, "length");
-        close(seen.base_diameter, again.base_diameter, "diameter");
-        close(seen.tip_diameter, again.tip_diameter, "diameter at the tip");
-        close(seen.area, again.area, "area");
-        for k in 0..3 {
-            let of = |vector: Option<[f64; 3]>| vector.map(|vector| vector[k]);
-            close(of(seen.place), of(again.place), "place");
-            close(of(seen.direction), of(again.direction), "direction");
-            close(of(seen.up), of(again.up), "upper side");
-        }
+        near(&told, seen, again);
         assert_eq!(seen.values, again.values, "{told}");
     }
 }
 
-/// The species of the round trips: trees, palms, grasses, shrubs, a geometric tree, and all architectural models.
-fn species() -> Vec<&'static str> {
-    let named = ["coffee", "fir", "oil_palm", "bamboo", "dog_rose", "gmt1/umbrella"];
-    let all = presets(Kind::Species).iter().map(|(name, _)| *name);
-    let geometric = all.clone().find(|name| name.starts_with("gmt1/"));
-    let models = all.filter(|name| name.starts_with("halle/"));
-    named[..5].iter().copied().chain(geometric).chain(models).collect()
-}
-
 #[test]
 fn a_plant_comes_back_from_an_mtg_as_it_was() {
-    let species = species();
-    assert_eq!(species.len(), 6 + 23);
-    for name in species {
+    for name in species() {
         let plant = plant_of(name);
         assert!(plant.entities() > 10, "{name}");
-        let file = written(&plant, "mtg");
+        let (file, _) = written(&plant, "mtg");
         let back = read(&file, "mtg");
         same(name, &plant, &back);
-        assert!(written(&back, "mtg") == file, "{name}: a second trip gives other bytes");
+        assert!(written(&back, "mtg").0 == file, "{name}: a second trip gives other bytes");
     }
 }
 
@@ -144,7 +89,7 @@ fn a_description_has_the_rows_of_the_run() {
     let last: u32 = rows.iter().map(|row| row[at("age")].parse().unwrap()).max().unwrap();
     let said = run(folder.path(), &["convert", "grown", "coffee.mtg", "--age", &last.to_string()]).ending(0).stdout;
     assert!(said.contains("1 plant"), "{said}");
-    let plant = read(&fs::read(folder.path().join("coffee.mtg")).unwrap(), "mtg");
+    let plant = of_file(&folder.path().join("coffee.mtg"));
     let individual = &plant.individuals[0];
     assert_eq!(individual.age, Some(last));
     let mut entities = std::collections::BTreeMap::new();
@@ -196,13 +141,13 @@ fn another_reader_of_mtg_finds_what_was_written() {
     for name in ["coffee", "bamboo", "oil_palm", "halle/leeuwenberg"] {
         let plant = plant_of(name);
         let file = folder.path().join("plant.mtg");
-        fs::write(&file, written(&plant, "mtg")).unwrap();
+        fs::write(&file, written(&plant, "mtg").0.main).unwrap();
         let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/readers/mtg.py");
         let done = Command::new(&python).arg(script).arg(&file).output().expect("python runs");
         assert!(done.status.success(), "{name}: {}", String::from_utf8_lossy(&done.stderr));
         let told = String::from_utf8(done.stdout).unwrap();
         let told: Vec<serde_json::Value> = told.lines().map(|line| serde_json::from_str(line).unwrap()).collect();
-        let back = read(&fs::read(&file).unwrap(), "mtg");
+        let back = of_file(&file);
         let entities = &back.individuals[0].entities;
         assert_eq!(told.len(), entities.len(), "{name}");
         for (line, entity) in told.iter().zip(entities) {

@@ -92,6 +92,23 @@ pub enum Role {
     Other,
 }
 
+impl Role {
+    /// The word for the role in files that spell it out.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Scene => "scene",
+            Self::Plant => "plant",
+            Self::Axis => "axis",
+            Self::GrowthUnit => "growth_unit",
+            Self::Internode => "internode",
+            Self::Leaf => "leaf",
+            Self::Flower => "flower",
+            Self::Fruit => "fruit",
+            Self::Other => "other",
+        }
+    }
+}
+
 /// How an entity springs from its bearer.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Link {

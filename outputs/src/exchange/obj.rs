@@ -80,7 +80,7 @@ impl Materials {
         let known = self.named.iter().position(|(kind, own, _)| (*kind, *own) == (role, material));
         let place = known.unwrap_or_else(|| {
             let alike = self.named.iter().filter(|(kind, ..)| *kind == role).count();
-            let name = if alike == 0 { word(role).to_owned() } else { format!("{}_{}", word(role), alike + 1) };
+            let name = if alike == 0 { role.word().to_owned() } else { format!("{}_{}", role.word(), alike + 1) };
             self.named.push((role, material, name));
             self.named.len() - 1
         });
@@ -273,19 +273,4 @@ fn stood(of: [f64; 3], standing: Option<&Standing>, is_place: bool) -> [f64; 3] 
 /// A word of letters, digits and underscores.
 fn word_of(symbol: &str) -> String {
     symbol.chars().map(|c| if c.is_alphanumeric() { c } else { '_' }).collect()
-}
-
-/// What a material of a kind of component is called.
-fn word(role: Role) -> &'static str {
-    match role {
-        Role::Scene => "scene",
-        Role::Plant => "plant",
-        Role::Axis => "axis",
-        Role::GrowthUnit => "growth_unit",
-        Role::Internode => "internode",
-        Role::Leaf => "leaf",
-        Role::Flower => "flower",
-        Role::Fruit => "fruit",
-        Role::Other => "other",
-    }
 }

@@ -20,21 +20,6 @@ pub(super) fn role(class: &str) -> Role {
     }
 }
 
-/// The word for a role, with which a file states the role of a class whose name does not tell it.
-pub(super) fn word(role: Role) -> &'static str {
-    match role {
-        Role::Scene => "scene",
-        Role::Plant => "plant",
-        Role::Axis => "axis",
-        Role::GrowthUnit => "growth_unit",
-        Role::Internode => "internode",
-        Role::Leaf => "leaf",
-        Role::Flower => "flower",
-        Role::Fruit => "fruit",
-        Role::Other => "other",
-    }
-}
-
 /// The class of an entity in a file: the word for what this program calls by a letter, else the symbol as it is.
 pub(super) fn class(symbol: &str, role: Role) -> &str {
     match (symbol, role) {

@@ -255,7 +255,7 @@ impl Writer<'_> {
         let symbol = class(&kind.symbol, kind.role);
         let _ = write!(self.text, "<{word} class=\"{}\"", escaped(symbol));
         if role(symbol) != kind.role {
-            let _ = write!(self.text, " role=\"{}\"", super::words::word(kind.role));
+            let _ = write!(self.text, " role=\"{}\"", kind.role.word());
         }
         let _ = writeln!(self.text, " scale=\"{}\" id=\"{}\">", kind.scale, self.id);
         self.id += 1;
