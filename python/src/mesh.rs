@@ -2,7 +2,7 @@
 //!
 //! Arrays are read in place: a `Column` tells numpy the address and the shape of its numbers by
 //! `__array_interface__`, and numpy keeps the column alive for as long as an array shows it. Nothing changes a column
-//! after it is made, and the arrays cannot be written. Absent: formats, which `phytomer.mesh` writes.
+//! after it is made, and the arrays cannot be written. Absent: files, which `phytomer.write_mesh` writes.
 
 use phytomer::outputs::meshes::{Chunk, Face, Scene, Vertex};
 use pyo3::exceptions::PyImportError;

@@ -156,7 +156,7 @@ impl Convert {
             Some(ending) if ending.eq_ignore_ascii_case("toml") => Ok(()),
             _ => Err(Misuse(format!(
                 "{shown}: a species file ends in .toml, and files of plants in {}",
-                plants::words().map(|word| format!(".{word}")).collect::<Vec<_>>().join(", ")
+                plants::endings().join(", ")
             ))),
         }
     }

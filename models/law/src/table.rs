@@ -75,7 +75,7 @@ fn threshold(p: f64) -> u32 {
 pub struct Threshold(u32);
 
 impl Threshold {
-    /// That of a probability in [0, 1].
+    /// The threshold of a probability in [0, 1].
     #[inline]
     pub fn of(p: f64) -> Self {
         Self(threshold(p))

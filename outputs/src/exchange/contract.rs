@@ -17,9 +17,9 @@ pub const MOST_ENTITIES: usize = 20_000_000;
 /// How many metres a unit of a file is, for formats that do not say it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Units {
-    /// Of lengths and places.
+    /// Metres in the unit of lengths and places.
     pub length_m: f64,
-    /// Of diameters.
+    /// Metres in the unit of diameters.
     pub diameter_m: f64,
 }
 

@@ -22,9 +22,9 @@ const LEAST: f64 = 1e-9;
 pub struct Drawn {
     /// Meshes: those of the description, then those that are added.
     pub meshes: Vec<Mesh>,
-    /// Materials, likewise.
+    /// Materials: those of the description, then those that are added.
     pub materials: Vec<Material>,
-    /// Shapes, likewise.
+    /// Shapes: those of the description, then those that are added.
     pub shapes: Vec<Shape>,
     /// Of each mesh whether widths taper it: all but those that entities are drawn with without any.
     pub tapered: Vec<bool>,

@@ -13,8 +13,8 @@ use phytomer_sim::plant::{AxisId, Class as KindClass, Frame, Kind, NOT_TOLD, Nod
 use phytomer_sim::pose::organ_frame;
 use std::collections::BTreeMap;
 
-/// The classes, with their scales and roles.
-const CLASSES: [(&str, u32, Role); 7] = [
+/// The classes of this program, with their scales and roles.
+pub(super) const CLASSES: [(&str, u32, Role); 7] = [
     ("P", 1, Role::Plant),
     ("A", 2, Role::Axis),
     ("U", 3, Role::GrowthUnit),

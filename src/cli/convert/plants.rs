@@ -36,6 +36,17 @@ pub fn words() -> impl Iterator<Item = &'static str> {
     FORMATS.into_iter().map(|format| format.word())
 }
 
+/// The endings of all formats of plants, each once, with their dots.
+pub fn endings() -> Vec<String> {
+    let mut endings: Vec<String> = Vec::new();
+    for ending in FORMATS.iter().flat_map(|format| format.endings()).map(|ending| format!(".{ending}")) {
+        if !endings.contains(&ending) {
+            endings.push(ending);
+        }
+    }
+    endings
+}
+
 /// The format that plants are to be written in; `None` where a species or a run folder is meant.
 ///
 /// # Errors

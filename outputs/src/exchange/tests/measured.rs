@@ -80,7 +80,8 @@ fn the_coffee_is_the_same_plant_in_both_of_its_files() {
     }
 }
 
-/// Features by name, as texts; the file that an entity came from is told differently by the two.
+/// The features of an entity by name, as texts. `FileName` is left out, since the MTG and the OPF of the coffee tree
+/// name other files there.
 fn values(of: &Description, entity: &Entity) -> BTreeMap<String, String> {
     let values = entity.latest().map_or(&[][..], |seen| &seen.values).iter();
     let text = |value: &Value| match value {

@@ -1,18 +1,9 @@
 //! Plants made for the tests, and their trips: from a description to a file and back.
 
 use super::{again, written};
+use crate::exchange::grown::CLASSES;
 use crate::exchange::vectors::{cross, unit};
 use crate::exchange::{Class, Description, Entity, FeatureType, Individual, Link, Observation, Role, Standing, Value};
-
-const CLASSES: [(&str, u32, Role); 7] = [
-    ("P", 1, Role::Plant),
-    ("A", 2, Role::Axis),
-    ("U", 3, Role::GrowthUnit),
-    ("I", 4, Role::Internode),
-    ("L", 4, Role::Leaf),
-    ("F", 4, Role::Flower),
-    ("R", 4, Role::Fruit),
-];
 
 /// No plant, with the classes of this program.
 fn empty() -> Description {

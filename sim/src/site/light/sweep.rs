@@ -34,24 +34,25 @@ const PLACES: [f64; EDGE as usize] = [0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0];
 /// One beam.
 #[derive(Debug, Clone, Copy)]
 struct Ray {
-    /// Where it lies, as far beyond its column and its row.
+    /// Its place across the light, less the numbers of its column and its row.
     at: Pair,
-    /// What is left of it; it began with 1.
+    /// The share of its light that is not absorbed yet; a beam begins with 1.
     light: f64,
 }
 
 /// How a source looks at voxels, in edges of a voxel.
 struct View {
-    /// Across the light, level first.
+    /// Two unit vectors across the beams; the first is level.
     axes: [Point; 2],
-    /// Half the width of a voxel along each.
+    /// Half the width of a voxel along each of the two.
     half: [f64; 2],
     /// By how much a beam comes later to the middle between each pair of faces for each edge that it lies aside, and
     /// above; and half the way between each pair of faces; metres.
     faces: [[f64; 3]; 3],
 }
 
-/// The beams of a source that may meet leaves, tile by tile; the first tile is met by nothing.
+/// The beams of a source that may meet leaves, tile by tile. The beams of the first tile have no light and lie beyond
+/// all voxels: it stands where a brick needs no tile.
 struct Beams {
     view: View,
     rays: Vec<Ray>,
@@ -64,7 +65,7 @@ struct Beams {
 struct Row {
     /// Their places among all beams.
     places: [usize; 2],
-    /// What is left of each.
+    /// The share of the light of each that is not absorbed yet.
     light: Pair,
     /// Their ways in the voxel, metres.
     ways: Pair,
