@@ -7,6 +7,7 @@
 
 mod contract;
 mod cursor;
+mod decimals;
 mod description;
 mod drawn;
 pub mod grown;
@@ -31,7 +32,7 @@ pub use description::{
 };
 pub use losses::{Loss, Losses};
 pub use report::{Fault, MOST_TOLD, Place, Report, Warning};
-pub use text::{decoded, place_of, plain, said};
+pub use text::{decoded, place_of, said};
 
 /// Every format. A new one is a line here and a file beside this one.
 pub static FORMATS: [&dyn Format; 7] =

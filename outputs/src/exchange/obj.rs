@@ -5,10 +5,10 @@
 //! not tell what its plant is.
 
 use super::contract::{Format, Incoming, Outgoing};
+use super::decimals::push;
 use super::description::{Description, Form, Material, Mesh, Role, Standing};
 use super::drawn::Drawn;
 use super::losses::Losses;
-use super::numbers::push;
 use super::report::Report;
 use super::vectors::{cross, unit};
 use phytomer_sim::math::sincos;

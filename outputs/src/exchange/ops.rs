@@ -7,9 +7,10 @@
 //! scene. Absent: chains of scenes, and what is no plant, which are passed over with a warning.
 
 use super::contract::{Format, Incoming, MOST_ENTITIES, Outgoing};
+use super::decimals::push;
 use super::description::{Description, Individual, Standing};
 use super::losses::Losses;
-use super::numbers::{number, push};
+use super::numbers::number;
 use super::opf;
 use super::report::Report;
 use super::text::{decoded, said};

@@ -11,7 +11,7 @@ use super::names::{MARK, Meaning, TAKEN, WRITTEN};
 use crate::exchange::contract::Outgoing;
 use crate::exchange::description::{Description, Entity, FeatureType, Link};
 use crate::exchange::losses::Losses;
-use std::collections::BTreeSet;
+use std::collections::{BTreeSet, HashSet};
 use std::io::{self, Write};
 
 /// What the columns of features hold.
@@ -67,7 +67,7 @@ fn head(description: &Description, written: &Written, columns: usize, file: &mut
 /// Which classes follow and branch from which; at least one, since a reader takes an empty section for no plant.
 fn relations(description: &Description) -> Vec<(String, String, Link)> {
     let symbols: Vec<String> = rows::symbols(description).map(|(symbol, _)| symbol).collect();
-    let mut found = BTreeSet::new();
+    let mut found = HashSet::new();
     for individual in &description.individuals {
         for entity in &individual.entities {
             let (Some(bearer), Some(link)) = (entity.bearer, entity.link) else { continue };
@@ -78,6 +78,8 @@ fn relations(description: &Description) -> Vec<(String, String, Link)> {
         }
     }
     let name = |class: u32| symbols.get(class as usize).cloned().unwrap_or_default();
+    let mut found: Vec<_> = found.into_iter().collect();
+    found.sort_unstable();
     let mut rows: Vec<_> = found.into_iter().map(|(left, right, link)| (name(left), name(right), link)).collect();
     if rows.is_empty() && !symbols.is_empty() {
         rows.push((name(0), name(0), Link::Branches));
@@ -103,8 +105,8 @@ impl Written {
         let (mut features, mut has_dates) = (vec![false; description.features.len()], false);
         for individual in &description.individuals {
             for entity in &individual.entities {
-                for (used, (.., meaning)) in used.iter_mut().zip(WRITTEN) {
-                    *used |= rows::has(individual, entity, meaning);
+                for (used, (.., meaning)) in used.iter_mut().zip(WRITTEN).filter(|(used, _)| !**used) {
+                    *used = rows::has(individual, entity, meaning);
                 }
                 for seen in &entity.observations {
                     has_dates |= seen.date.is_some();

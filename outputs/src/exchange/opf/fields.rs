@@ -1,14 +1,14 @@
 //! The attributes that a written OPF file has of an entity: those that the description has fields for, and the names of
 //! those that it calls features.
 
+use super::super::decimals::{push, push_whole};
 use super::super::description::{Description, Entity, Individual, Observation};
 use super::super::losses::Losses;
-use super::super::numbers::{is_lacking, push};
+use super::super::numbers::is_lacking;
 use super::super::xml::escaped;
 use super::parts::CM;
 use super::words::{Known, is_structure, known};
 use std::collections::{BTreeMap, BTreeSet};
-use std::fmt::Write;
 
 /// Places behind the point of numbers of geometry: 10⁻⁹ cm.
 pub(super) const PLACES: usize = 9;
@@ -32,8 +32,8 @@ impl Written<'_> {
     pub fn push(&self, out: &mut String) {
         match self {
             Self::Number(number, places) => push(out, *number, *places),
-            Self::Ticks(ticks) => _ = write!(out, "{ticks}"),
-            Self::Truth(truth) => _ = write!(out, "{truth}"),
+            Self::Ticks(ticks) => push_whole(out, *ticks),
+            Self::Truth(truth) => out.push_str(if *truth { "true" } else { "false" }),
             Self::Text(text) => out.push_str(&escaped(text.trim())),
         }
     }

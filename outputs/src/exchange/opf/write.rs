@@ -5,10 +5,11 @@
 //! an end whose width is exactly 1 for an entity that is not tapered, so such a width is written a little larger.
 //! Absent: the order of elements (`order`), and the forms of entities without one (`drawn`).
 
-use super::super::description::{Description, Entity, FeatureType, Form, Individual, Mesh, Observation, Value};
+use super::super::decimals::{push, push_real, push_whole};
+use super::super::description::{Class, Description, Entity, FeatureType, Form, Individual, Mesh, Observation, Value};
 use super::super::drawn::Drawn;
 use super::super::losses::Losses;
-use super::super::numbers::{is_lacking, push};
+use super::super::numbers::is_lacking;
 use super::super::vectors::{cross, unit};
 use super::super::xml::escaped;
 use super::fields::{PLACES, SIZES, fields, names};
@@ -30,12 +31,22 @@ pub(in super::super) struct Writing<'a> {
     drawn: Drawn,
     /// The attribute of each feature.
     names: Vec<String>,
+    /// The place of each feature among all, by the names of their attributes.
+    places: Vec<u32>,
+    /// What the element of an entity of each class begins with, behind its word.
+    classes: Vec<String>,
 }
 
 impl<'a> Writing<'a> {
     /// Of a description.
     pub fn of(described: &'a Description, losses: &mut Losses) -> Self {
-        Self { described, drawn: Drawn::of(described), names: names(described, losses) }
+        let names = names(described, losses);
+        let mut by_name: Vec<usize> = (0..names.len()).collect();
+        by_name.sort_unstable_by_key(|feature| &names[*feature]);
+        let mut places = vec![0; names.len()];
+        by_name.into_iter().zip(0..).for_each(|(feature, place)| places[feature] = place);
+        let classes = described.classes.iter().map(beginning).collect();
+        Self { described, drawn: Drawn::of(described), names, places, classes }
     }
 
     /// Writes some plants as one file.
@@ -58,7 +69,7 @@ struct Writer<'a> {
     losses: &'a mut Losses,
     text: String,
     /// The number of the next element.
-    id: u64,
+    id: i64,
 }
 
 impl Writer<'_> {
@@ -120,7 +131,11 @@ impl Writer<'_> {
         }
         self.text.push_str("\t\t\t<faces>\n");
         for (id, [a, b, c]) in mesh.triangles.iter().enumerate() {
-            let _ = writeln!(self.text, "\t\t\t\t<face Id=\"{id}\">{a} {b} {c}</face>");
+            self.text.push_str("\t\t\t\t<face Id=\"");
+            for (number, end) in [(id as u32, "\">"), (*a, " "), (*b, " "), (*c, "</face>\n")] {
+                push_whole(&mut self.text, number);
+                self.text.push_str(end);
+            }
         }
         self.text.push_str("\t\t\t</faces>\n");
     }
@@ -250,29 +265,26 @@ impl Writer<'_> {
     /// The beginning of an entity with what it carries.
     fn entity(&mut self, plant: &Individual, number: u32, word: &str, depth: usize) {
         let entity = &plant.entities[number as usize];
-        let kind = self.of.described.class_of(entity);
         self.indent(depth);
-        let symbol = class(&kind.symbol, kind.role);
-        let _ = write!(self.text, "<{word} class=\"{}\"", escaped(symbol));
-        if role(symbol) != kind.role {
-            let _ = write!(self.text, " role=\"{}\"", kind.role.word());
-        }
-        let _ = writeln!(self.text, " scale=\"{}\" id=\"{}\">", kind.scale, self.id);
+        push_all(&mut self.text, ["<", word, &self.of.classes[entity.class as usize]]);
+        push_whole(&mut self.text, self.id);
+        self.text.push_str("\">\n");
         self.id += 1;
         let start = self.text.len();
         let text = &mut self.text;
         fields(self.of.described, plant, number as usize, entity, |field, value| {
             let name = KNOWN[field as usize].1;
-            let _ = write!(text, "<{name}>");
+            push_all(text, ["<", name, ">"]);
             value.push(text);
-            let _ = write!(text, "</{name}>");
+            push_all(text, ["</", name, ">"]);
         });
         let seen = entity.latest();
         let mut values: Vec<_> = seen.map_or(&[][..], |seen| &seen.values).iter().collect();
-        values.sort_unstable_by_key(|(feature, _)| self.of.names.get(*feature as usize));
+        values.sort_unstable_by_key(|(feature, _)| self.of.places.get(*feature as usize));
         for (feature, value) in values {
             self.value(*feature, value);
         }
+        let kind = self.of.described.class_of(entity);
         if self.text.len() > start {
             self.text.push('\n');
         }
@@ -286,22 +298,28 @@ impl Writer<'_> {
     /// A value of a feature; nothing where it would be read as a lack.
     fn value(&mut self, feature: u32, value: &Value) {
         let Some(name) = self.of.names.get(feature as usize) else { return };
-        let written = match value {
-            Value::Int(number) => number.to_string(),
-            Value::Real(number) if number.is_finite() => format!("{number:?}"),
-            Value::Real(_) => return,
+        match value {
+            Value::Real(number) if !number.is_finite() => return,
             Value::Text(text) if is_lacking(text.trim()) => return,
-            Value::Text(text) => escaped(text.trim()).into_owned(),
-            Value::Truth(truth) => truth.to_string(),
-            Value::Date(date) => date.to_string(),
-        };
-        let _ = write!(self.text, "<{name}>{written}</{name}>");
+            _ => push_all(&mut self.text, ["<", name, ">"]),
+        }
+        let text = &mut self.text;
+        match value {
+            Value::Int(number) => push_whole(text, *number),
+            Value::Real(number) => push_real(text, *number),
+            Value::Text(word) => text.push_str(&escaped(word.trim())),
+            Value::Truth(truth) => text.push_str(if *truth { "true" } else { "false" }),
+            Value::Date(date) => _ = write!(text, "{date}"),
+        }
+        push_all(text, ["</", name, ">"]);
     }
 
     /// The geometry of an entity that is drawn.
     fn form(&mut self, form: &Form) {
         let shape = self.used.shapes.place(form.shape);
-        let _ = writeln!(self.text, "<geometry class=\"Mesh\"><shapeIndex>{shape}</shapeIndex><mat>");
+        self.text.push_str("<geometry class=\"Mesh\"><shapeIndex>");
+        push_whole(&mut self.text, shape);
+        self.text.push_str("</shapeIndex><mat>\n");
         for [x, y, z, place] in form.matrix {
             self.row(&[x, y, z, place * CM]);
         }
@@ -312,8 +330,7 @@ impl Writer<'_> {
             let one = if down == "1" { &mut down } else { &mut up };
             *one = "1.0000000001".to_owned();
         }
-        let _ = write!(self.text, "<dUp>{up}</dUp><dDwn>{down}</dDwn>");
-        self.text.push_str("</geometry>\n");
+        push_all(&mut self.text, ["<dUp>", &up, "</dUp><dDwn>", &down, "</dDwn></geometry>\n"]);
     }
 
     /// Place and directions of an entity that is not drawn: columns of zeros where they are not known.
@@ -342,6 +359,17 @@ impl Writer<'_> {
         self.losses.add("observations before the last", earlier, "the format has one state of a plant");
         self.losses.add("dates of observations", dated, "the format has none");
     }
+}
+
+/// What the element of an entity of a class begins with, behind its word and up to its number.
+fn beginning(of: &Class) -> String {
+    let symbol = class(&of.symbol, of.role);
+    let role = if role(symbol) == of.role { String::new() } else { format!(" role=\"{}\"", of.role.word()) };
+    format!(" class=\"{}\"{role} scale=\"{}\" id=\"", escaped(symbol), of.scale)
+}
+
+fn push_all<const N: usize>(text: &mut String, words: [&str; N]) {
+    words.into_iter().for_each(|word| text.push_str(word));
 }
 
 fn width(of: f64) -> String {

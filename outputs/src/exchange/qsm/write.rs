@@ -3,7 +3,7 @@
 //! Lengths and radii have all their digits, so that their sums stay as they are; places have nine places behind the
 //! point, directions twelve.
 
-use super::super::numbers::push;
+use super::super::decimals::push;
 use super::rows::Row;
 use std::fmt::Write as _;
 use std::io::{self, Write};

@@ -33,8 +33,8 @@ const WORDS: [&str; 24] = [
     "\u{0}",
 ];
 
-/// A file that is damaged: its format, its bytes, and the files beside it.
-type Seed = (&'static str, Vec<u8>, BTreeMap<String, Vec<u8>>);
+/// A file that is damaged: its format, its bytes, the files beside it, and how often.
+type Seed = (&'static str, Vec<u8>, BTreeMap<String, Vec<u8>>, usize);
 
 /// A file with some of its bytes changed, left out, doubled or put in.
 fn damaged(bytes: &[u8], numbers: &mut Numbers) -> Vec<u8> {
@@ -63,19 +63,21 @@ fn damaged(bytes: &[u8], numbers: &mut Numbers) -> Vec<u8> {
 #[test]
 fn damaged_files_are_read_or_refused() {
     let count: usize = std::env::var("PHYTOMER_MUTATIONS").ok().and_then(|count| count.parse().ok()).unwrap_or(400);
-    let made = plant(11, 25);
     let mut seeds: Vec<Seed> = Vec::new();
-    for word in ["opf", "ops", "treeqsm", "treeqsm15", "rtwig"] {
-        let (out, _) = written(word, &made);
-        seeds.push((word, text(&out).into_bytes(), out.beside));
+    // Small files are damaged more often for the time that they take.
+    for (made, share) in [(plant(11, 3), count - count / 8), (plant(11, 25), count / 8)] {
+        for word in ["opf", "ops", "treeqsm", "treeqsm15", "rtwig"] {
+            let (out, _) = written(word, &made);
+            seeds.push((word, text(&out).into_bytes(), out.beside, share));
+        }
     }
     if let Some(folder) = measured() {
-        seeds.push(("opf", std::fs::read(folder.join("simple_plant.opf")).unwrap(), BTreeMap::new()));
+        seeds.push(("opf", std::fs::read(folder.join("simple_plant.opf")).unwrap(), BTreeMap::new(), count));
     }
     let mut numbers = Numbers(count as u64);
     let (mut read, mut refused) = (0, 0);
-    for (word, bytes, beside) in &seeds {
-        for _ in 0..count {
+    for (word, bytes, beside, count) in &seeds {
+        for _ in 0..*count {
             let mut others = beside.clone();
             let mut file = bytes.clone();
             // Of a scene either the scene or one of its plants is damaged.

@@ -2,10 +2,10 @@
 
 use super::Written;
 use super::order::{self, Tie};
+use crate::exchange::decimals::{push, push_shortest, push_whole};
 use crate::exchange::description::{Date, Description, Entity, Individual, Observation, Value};
 use crate::exchange::losses::Losses;
 use crate::exchange::mtg::names::Meaning;
-use crate::exchange::text::plain;
 use std::io::{self, Write};
 
 /// Places after the point: of lengths a nanometre, of areas a square micrometre.
@@ -32,8 +32,12 @@ fn symbol(name: &str) -> String {
 
 /// A text of letters, digits, `_`, `.` and `-`.
 pub fn word(text: &str) -> String {
-    let keep = |c: char| if c.is_ascii_alphanumeric() || "_.-".contains(c) { c } else { '_' };
-    text.chars().map(keep).collect()
+    text.chars().map(|c| if u8::try_from(c).is_ok_and(is_kept) { c } else { '_' }).collect()
+}
+
+/// Whether a sign of a text cuts no line.
+fn is_kept(sign: u8) -> bool {
+    sign.is_ascii_alphanumeric() || matches!(sign, b'_' | b'.' | b'-')
 }
 
 /// Whether any line of an entity has a value of a meaning.
@@ -68,15 +72,15 @@ pub fn write(
     order::each(individual, |at| {
         let entity = &individual.entities[at.entity as usize];
         line.clear();
-        (0..at.column).for_each(|_| line.push('\t'));
+        tabs(at.column, &mut line);
         match at.tie {
             Tie::Root => line.push('/'),
             Tie::Above(sign) => line.extend(['^', sign]),
             Tie::Left(sign) => line.push(sign),
         }
         line.push_str(&symbols[entity.class as usize]);
-        if let Some(index) = entity.index.and_then(|index| plain(index.abs(), 6)) {
-            line.push_str(&index);
+        if let Some(index) = entity.index.filter(|index| index.is_finite()) {
+            push(&mut line, index.abs(), 6);
         }
         let mut observations = entity.observations.iter();
         let first = observations.next();
@@ -84,13 +88,23 @@ pub fn write(
         file.write_all(line.as_bytes())?;
         for seen in observations {
             line.clear();
-            (0..at.column).for_each(|_| line.push('\t'));
+            tabs(at.column, &mut line);
             line.push('*');
             again(seen, (written, columns - at.column), &mut line, losses);
             file.write_all(line.as_bytes())?;
         }
         Ok(())
     })
+}
+
+/// Columns count branchings, so half of a file may be tabs.
+fn tabs(mut count: usize, line: &mut String) {
+    const MANY: &str = "\t\t\t\t\t\t\t\t\t\t\t\t\t\t\t\t\t\t\t\t\t\t\t\t\t\t\t\t\t\t\t\t";
+    while count > 0 {
+        let some = count.min(MANY.len());
+        line.push_str(&MANY[..some]);
+        count -= some;
+    }
 }
 
 /// The cells of the first line of an entity, and the end of the line.
@@ -136,15 +150,16 @@ fn rest(seen: Option<&Observation>, written: &Written, cells: &mut Cells<'_>, lo
         while told.next_if(|(known, _)| known < feature).is_some() {}
         let value = told.next_if(|(known, _)| known == feature).map(|(_, value)| value);
         match value {
-            None => cells.text(None),
-            Some(Value::Int(number)) => cells.text(Some(&number.to_string())),
-            Some(Value::Real(number)) => cells.text(number.is_finite().then(|| number.to_string()).as_deref()),
+            None => cells.skip(),
+            Some(Value::Int(number)) => push_whole(cells.begin(), *number),
+            Some(Value::Real(number)) if number.is_finite() => push_shortest(cells.begin(), *number),
+            Some(Value::Real(_)) => cells.skip(),
             Some(Value::Truth(truth)) => cells.text(Some(if *truth { "true" } else { "false" })),
             Some(Value::Date(date)) => cells.text(Some(&day(*date))),
+            Some(Value::Text(text)) if text.bytes().all(is_kept) => cells.text(Some(text)),
             Some(Value::Text(text)) => {
-                let kept = word(text);
-                losses.add("signs in texts", u64::from(kept != **text), "`_` stands for each that cuts a line");
-                cells.text(Some(&kept));
+                losses.add("signs in texts", 1, "`_` stands for each that cuts a line");
+                cells.text(Some(&word(text)));
             }
         }
     }
@@ -163,17 +178,30 @@ struct Cells<'l> {
 }
 
 impl Cells<'_> {
-    fn text(&mut self, text: Option<&str>) {
-        if let Some(text) = text.filter(|text| !text.is_empty()) {
-            (0..self.waiting).for_each(|_| self.line.push('\t'));
-            self.line.push_str(text);
-            self.waiting = 0;
-        }
+    /// Begins a cell with something in it, which goes to the end of the line.
+    fn begin(&mut self) -> &mut String {
+        tabs(self.waiting, self.line);
+        self.waiting = 1;
+        self.line
+    }
+
+    /// Leaves a cell empty.
+    fn skip(&mut self) {
         self.waiting += 1;
     }
 
+    fn text(&mut self, text: Option<&str>) {
+        match text.filter(|text| !text.is_empty()) {
+            Some(text) => self.begin().push_str(text),
+            None => self.skip(),
+        }
+    }
+
     fn whole(&mut self, number: Option<u32>) {
-        self.text(number.map(|number| number.to_string()).as_deref());
+        match number {
+            Some(number) => push_whole(self.begin(), number),
+            None => self.skip(),
+        }
     }
 
     fn number(&mut self, seen: Option<&Observation>, meaning: Meaning) {
@@ -188,6 +216,9 @@ impl Cells<'_> {
             _ => None,
         });
         let places = if meaning == Meaning::Area { AREA } else { LENGTH };
-        self.text(number.and_then(|number| plain(number, places)).as_deref());
+        match number.filter(|number| number.is_finite()) {
+            Some(number) => push(self.begin(), number, places),
+            None => self.skip(),
+        }
     }
 }
