@@ -3,7 +3,7 @@
 //!
 //! A species and a scenario go the whole way of `phytomer grow`; a mesh is read as a form, a weather file as its days,
 //! an L-system is grown with the files beside it (`lsystem`); a forest is read with its rasters (`forest`), and a tree
-//! of another program is converted; a script of the A-system is run; the plan of a ground is checked; a run folder, one
+//! of another program is converted, and plants of others are read and written (`exchange`); a script of the A-system is run; the plan of a ground is checked; a run folder, one
 //! of whose files is replaced, is checked, read and resumed. `fuzz_targets` hands these functions to libFuzzer, and
 //! `examples/fuzz` runs them on stable over broken copies of what ships (`seeds`, `broken`). Absent: files that are
 //! right, which the tests have.
@@ -12,6 +12,7 @@
 
 pub mod broken;
 mod documents;
+mod exchange;
 mod forest;
 mod lsystem;
 pub mod seeds;
@@ -22,6 +23,7 @@ mod answered;
 #[path = "../../tests/program/tried.rs"]
 mod tried;
 
+pub use exchange::exchange;
 pub use lsystem::lsystem;
 use phytomer::analysis::architecture::qualified;
 use phytomer::analysis::population;
@@ -48,7 +50,7 @@ pub const ENDINGS_OF_TREES: [&str; 3] = ["py", "xml", "json"];
 pub type Target = fn(&[u8]);
 
 /// Every target by its name.
-pub const TARGETS: [(&str, Target); 12] = [
+pub const TARGETS: [(&str, Target); 13] = [
     ("run_folder", run_folder),
     ("species", species),
     ("scenario", scenario),
@@ -61,6 +63,7 @@ pub const TARGETS: [(&str, Target); 12] = [
     ("tree", tree),
     ("asystem", asystem),
     ("plan", plan),
+    ("exchange", exchange),
 ];
 
 /// A temporary folder, in memory where there is some: a disk would be waited for at each input.

@@ -5,7 +5,8 @@
 
 use super::answered::choice;
 use super::{ENDINGS_OF_TREES, RESUMED, SEALED, files_of_a_run};
-use phytomer_weather::Format;
+use phytomer::outputs::exchange::{FORMATS, Format};
+use phytomer_weather::Format as WeatherFormat;
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -44,6 +45,7 @@ pub fn of(target: &str) -> Vec<Vec<u8>> {
         "tree" => of_trees(),
         "asystem" => of_folder(&project().join("docs/asystem"), "asys"),
         "plan" => of_plans(),
+        "exchange" => of_exchange(),
         ending => of_folder(&project().join("fuzz/seeds"), ending),
     }
 }
@@ -84,11 +86,25 @@ fn of_trees() -> Vec<Vec<u8>> {
 
 /// The files that the tests of weather have, each by its format.
 fn of_weather() -> Vec<Vec<u8>> {
-    let endings = [("WTH", Format::Dssat), ("AgMIP", Format::Agmip), ("met", Format::Apsim), ("csv", Format::Csv)];
+    let endings = [
+        ("WTH", WeatherFormat::Dssat),
+        ("AgMIP", WeatherFormat::Agmip),
+        ("met", WeatherFormat::Apsim),
+        ("csv", WeatherFormat::Csv),
+    ];
     let folder = project().join("config/weather/tests/data");
     let of =
         |(ending, format)| of_folder(&folder, ending).into_iter().map(move |file| [&[choice(format)], &*file].concat());
     endings.into_iter().flat_map(of).collect()
+}
+
+/// A small plant in each format, which its ending names.
+fn of_exchange() -> Vec<Vec<u8>> {
+    let folder = project().join("fuzz/seeds");
+    let of = |(place, format): (u8, &dyn Format)| {
+        of_folder(&folder, format.word()).into_iter().map(move |file| [&[place], &*file].concat())
+    };
+    (0..).zip(FORMATS).filter(|(_, format)| format.reads()).flat_map(of).collect()
 }
 
 /// The court that the documentation has, and those of the folder of seeds, with keys that the court leaves out.
