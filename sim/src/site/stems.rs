@@ -25,8 +25,8 @@ use rayon::iter::{IndexedParallelIterator, IntoParallelRefIterator, IntoParallel
 /// The fewest plants whose stems are followed on several threads.
 const FEWEST_PLANTS: usize = 16;
 /// What a stem may grow thicker before it is entered anew: a share of its radius, and metres.
-const ROOM: f32 = 1.25;
-const LEAST_ROOM: f32 = 1e-3;
+const ROOM: f32 = 1.5;
+const LEAST_ROOM: f32 = 4e-3;
 /// What a coarse test allows for rounding, metres.
 const ROUNDING: f64 = 1e-4;
 

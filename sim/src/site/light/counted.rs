@@ -3,8 +3,8 @@
 //! Sums of whole numbers give the same grid as all leaves added anew. A leaf is counted as it was when it was grown to
 //! its full size, and until then at each tick. That holds for plants whose leaves stay where they are: those that
 //! neither bend nor lengthen, whose leaves do not turn, and that state no frames. Where a plant of the plot is none of
-//! these, or its frames have become others, all area is added up anew (`grid_of`). Absent: wood, whose area changes at
-//! each tick.
+//! these, its frames have become others, or most leaves fall at a tick, all area is added up anew (`grid_of`). Absent:
+//! wood, whose area changes at each tick.
 
 use super::canopy::{Canopy, Standing, pieces_of_leaf};
 use super::grid::{Grid, Voxel};
@@ -16,6 +16,8 @@ use rayon::iter::{IndexedParallelIterator, IntoParallelRefIterator, IntoParallel
 
 /// The fewest plants whose leaves a thread looks through.
 const FEWEST_PLANTS: usize = 16;
+/// So many leaves may be taken away at a tick of any plot.
+const MOST_TAKEN: usize = 1_000;
 /// The most units of a piece: all pieces that there can be do not fill a voxel then.
 const MOST_UNITS: u64 = 1 << 30;
 
@@ -25,6 +27,8 @@ pub struct Counted {
     /// The voxels, in the order in which they were made; `None` where nothing is counted.
     grid: Option<Grid>,
     plants: Vec<OfPlant>,
+    /// Whether so many leaves fall at a tick that all are sooner added anew.
+    given_up: bool,
 }
 
 /// What is counted of a plant.
@@ -38,6 +42,8 @@ struct OfPlant {
     organs: Vec<Share>,
     /// What has changed.
     changes: Vec<(Voxel, u8, i64)>,
+    /// How many leaves stand, and how many had to be taken away.
+    leaves: [usize; 2],
 }
 
 /// Whether an organ is counted.
@@ -80,6 +86,8 @@ impl Counted {
             self.grid = None;
             return None;
         }
+        let [stand, taken] = self.plants.iter().fold([0; 2], |[a, b], of| [a + of.leaves[0], b + of.leaves[1]]);
+        self.given_up = taken > MOST_TAKEN.max(stand / 3);
         for of in &self.plants {
             for (voxel, class, units) in &of.changes {
                 grid.shift(*voxel, usize::from(*class), *units);
@@ -105,7 +113,9 @@ impl Counted {
             let fresh = |plant: &Plant| OfPlant { of: versions(plant), ..OfPlant::default() };
             (self.grid, self.plants) = (None, standing.plants.iter().map(fresh).collect());
         }
-        same && !lighting.wood && standing.plants.par_iter().with_min_len(FEWEST_PLANTS).all(keeps_its_leaves)
+        same && !self.given_up
+            && !lighting.wood
+            && standing.plants.par_iter().with_min_len(FEWEST_PLANTS).all(keeps_its_leaves)
     }
 }
 
@@ -123,16 +133,18 @@ impl OfPlant {
     /// Notes what has changed in a plant since it was counted; whether its leaves are not too large for it.
     fn count(&mut self, grid: &Grid, plant: &Plant, age: Option<Tick>, longest: f64) -> bool {
         self.changes.clear();
+        self.leaves = [0; 2];
         let Some(age) = age else { return true };
         let (before, organs) = (self.age, &plant.organs);
         self.age = age;
         self.organs.resize(organs.len(), Share::Nothing);
         let fallen = plant.fallen_by(age);
         let mut fits = true;
-        let Self { organs: shares, changes, .. } = self;
+        let Self { organs: shares, changes, leaves: [stand, taken], .. } = self;
         let lives = organs.birth.iter().zip(&organs.death).zip(&organs.kind);
         for (organ, (share, ((birth, death), kind))) in shares.iter_mut().zip(lives).enumerate() {
             let stands = *birth <= age && fallen < *death && kind.is_foliage();
+            *stand += usize::from(stands);
             if stands == (*share != Share::Nothing) && *share != Share::Growing {
                 continue;
             }
@@ -146,6 +158,7 @@ impl OfPlant {
                 });
             };
             if *share != Share::Nothing {
+                *taken += 1;
                 pieces(before, -1);
             }
             if stands {

@@ -1,6 +1,6 @@
 //! The cells of space through which stems pass, so that a bud asks those beside it alone.
 //!
-//! Cells are cubes of one edge, about as long as the stems are on average; they stand in bricks of 8 × 8 × 8 that
+//! Cells are cubes of one edge, twice as long as the stems are on average; they stand in bricks of 8 × 8 × 8 that
 //! are made where stems come, so memory follows the wood. A stem is entered once in each cell that the box about a part
 //! of it touches, with the radius that it was entered for, and stays there from tick to tick as long as it stands where
 //! it stood. Found are all that may be near, some of them more than once and in no order that means anything. Absent:
@@ -61,13 +61,13 @@ struct Entry {
 impl Cells {
     /// Empty cells for stems that are so long on average, metres.
     pub fn of(length: f64) -> Self {
-        let edge = length.clamp(SHORTEST, LONGEST);
+        let edge = (2.0 * length).clamp(SHORTEST, LONGEST);
         Self { edge, table: vec![NONE; 64], free: NONE, ..Self::default() }
     }
 
     /// Whether stems that are so long on average, metres, would still be entered in such cells.
     pub fn suit(&self, length: f64) -> bool {
-        (0.5 * self.edge..=2.0 * self.edge).contains(&length.clamp(SHORTEST, LONGEST))
+        (0.5 * self.edge..=2.0 * self.edge).contains(&(2.0 * length).clamp(SHORTEST, LONGEST))
     }
 
     /// The cells of the box about a ball; `None` where they are too many to be asked.
@@ -83,7 +83,8 @@ impl Cells {
         let along = [0, 1, 2].map(|k| end[k] - start[k]);
         let longest = along.iter().fold(0.0_f64, |longest, x| longest.max(x.abs()));
         let parts = (longest / self.edge).ceil().max(1.0);
-        if !parts.is_finite() || parts * (2.0 * margin / self.edge + 3.0).powi(3) > MOST_CELLS as f64 {
+        let across = 2.0 * margin / self.edge + 3.0;
+        if !parts.is_finite() || parts * (across * across * across) > MOST_CELLS as f64 {
             return None;
         }
         let edge = self.edge;
