@@ -148,10 +148,11 @@ impl Plot<'_> {
         if site.whose_stems == Whose::Nobody {
             return;
         }
-        // The stems of the tick before are given back first.
-        site.stems = None;
         let ages: Vec<Option<Tick>> = members.iter().map(|member| member.age_at(tick.saturating_sub(1))).collect();
-        site.stems = Some(Arc::new(Stems::of(plants, &ages, site.whose_stems)));
+        match &mut site.stems {
+            Some(stems) if stems.whose() == site.whose_stems => Arc::make_mut(stems).follow(plants, &ages),
+            stems => *stems = Some(Arc::new(Stems::of(plants, &ages, site.whose_stems))),
+        }
     }
 
     /// What each member claims of the site for `tick`, in the order of the plot.

@@ -6,6 +6,7 @@
 use crate::clock::Tick;
 use crate::plot::Plot;
 use crate::shape::Point;
+use crate::site::light::field::grid_of;
 use crate::site::light::{Borders, Canopy, Field, Lighting, Lit, Piece, Standing};
 use rayon::iter::{IndexedParallelIterator, IntoParallelIterator, IntoParallelRefMutIterator, ParallelIterator};
 use std::sync::Arc;
@@ -46,17 +47,19 @@ impl Plot<'_> {
         let feel: Vec<bool> = members.iter().map(|member| species[member.species].sees_light()).collect();
         let ages: Vec<Option<Tick>> = members.iter().map(|member| member.age_at(tick)).collect();
         let standing = Standing { plants, ages: &ages, wood: light.lighting.wood, feel: &feel };
-        let field = Field::of(&light.lighting, &standing, &light.lighting.sources(tick));
-        let lit = |plant: usize| {
-            let mut lit = Vec::new();
-            standing.buds(plant, &mut |axis, place| lit.push((axis, field.share_at(place))));
-            lit
+        let buds = |plant: usize| {
+            let mut buds = Vec::new();
+            standing.buds(plant, &mut |axis, place| buds.push((axis, place)));
+            buds
         };
+        let buds: Vec<Vec<(usize, Point)>> = (0..standing.plants()).into_par_iter().map(buds).collect();
+        let counted = light.counted.grid(&light.lighting, &standing, &buds);
+        let grid = counted.unwrap_or_else(|| grid_of(&light.lighting, &standing));
+        let field = Field::in_grid(&light.lighting, grid, &light.lighting.sources(tick));
         if light.felt {
-            let lit: Vec<Vec<(usize, f64)>> = (0..standing.plants()).into_par_iter().map(lit).collect();
-            plants.par_iter_mut().zip(lit).for_each(|(plant, lit)| {
-                let axes = plant.axes.len();
-                plant.shade.set(axes, lit.into_iter());
+            plants.par_iter_mut().zip(buds).for_each(|(plant, buds)| {
+                let lit = buds.into_iter().map(|(axis, place)| (axis, field.share_at(place)));
+                plant.shade.set(plant.axes.len(), lit);
             });
         }
         light.found = Some(Arc::new(field));

@@ -170,7 +170,7 @@ impl Site {
         self.stems = None;
         self.cells.clear();
         if let Some(light) = &mut self.light {
-            light.found = None;
+            (light.found, light.counted) = (None, Default::default());
         }
     }
 

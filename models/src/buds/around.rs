@@ -63,13 +63,20 @@ pub(super) enum Lie {
 }
 
 impl<'a> Around<'a> {
-    /// What is around the bud of an axis, as it stood at the end of the last tick; `None` where nothing can be met.
-    pub fn of(site: &'a Site, laws: ContactLaws, plant: &Plant, axis: AxisId) -> Option<Self> {
+    /// Whether there is anything on a site that a shoot meets.
+    pub fn meets(site: &Site) -> bool {
+        !site.solids().is_empty() || site.stems.as_deref().is_some_and(|stems| !stems.is_empty())
+    }
+
+    /// Whether a bud feels anything before it grows: a surface may have come to it, else it must feel ahead.
+    pub fn feels(site: &Site, laws: &ContactLaws) -> bool {
+        !site.solids().is_empty() || laws.cone.length > 0.0 || laws.answer == Answer::Fasten
+    }
+
+    /// What is around the bud of an axis, as it stood at the end of the last tick.
+    pub fn of(site: &'a Site, laws: ContactLaws, plant: &Plant, axis: AxisId) -> Self {
         let solids = site.solids();
         let stems = site.stems.as_deref().filter(|stems| !stems.is_empty());
-        if solids.is_empty() && stems.is_none() {
-            return None;
-        }
         let base = bud_base(plant, axis);
         let place = plant.place;
         let posed = (plant.axes.last_node[axis.index()].some(), [0, 1, 2].map(|k| place[k] + f64::from(base[k])));
@@ -77,7 +84,7 @@ impl<'a> Around<'a> {
         let (beside, ahead, free, grown, felt, stuck) = (Beside::default(), None, 0.0, 0.0, None, false);
         let mut around = Self { solids, stems, beside, spared, laws, place, posed, ahead, free, grown, felt, stuck };
         around.free = around.free_about(posed.1, 0.0);
-        Some(around)
+        around
     }
 
     /// The distance that is free of surfaces about a place, at least `reach` or as far as was looked.
@@ -122,10 +129,13 @@ impl<'a> Around<'a> {
     fn is_far_from_stems(&mut self, reach: f64) -> bool {
         let (tip, more) = (self.tip(), if self.ahead.is_none() { self.grown } else { 0.0 });
         let Some(stems) = self.stems else { return true };
-        let known = self.beside.look(stems, tip, reach + more, self.spared);
+        let reach = reach + more;
         // A climber looks for what it holds to wherever some stem is known. Rounding is far less than the clearance.
         let looks = self.felt.is_some() || self.laws.answer == Answer::Fasten;
-        !known || (!looks && !self.beside.any_within(tip, reach + more + CLEARANCE))
+        match looks {
+            true => !self.beside.look(stems, tip, reach, self.spared),
+            false => !self.beside.glance(stems, tip, [reach, CLEARANCE], self.spared),
+        }
     }
 
     /// The distance at which a climber holds; 0 of other plants.

@@ -9,27 +9,31 @@
 //! way (`around`).
 
 use super::around::{Around, Lie, Next};
+use super::bud::ApicalBud;
+use super::compile::BudModel;
 use super::grow::{Axis, Full};
 use super::params::{Answer, ApexEnd};
-use phytomer_sim::plant::{ApexFate, EventKind, NodeId, OrganId, Rest};
+use phytomer_sim::plant::{ApexFate, EventKind, NodeId, OrganId, Plant, Rest};
 use phytomer_sim::site::Site;
 use phytomer_sim::site::solids::CLEARANCE;
 use phytomer_sim::site::stems::Beside;
 use phytomer_sim::site::way::Step;
 
 impl<'a> Axis<'a> {
-    /// The axis with what is around its bud.
+    /// The axis on a site whose solids and stems its shoots meet.
     pub fn among(mut self, site: Option<&'a Site>) -> Self {
-        let around = site.and_then(|site| Around::of(site, self.model.contact, self.plant, self.bud.axis));
-        self.around = around.map(Box::new);
+        self.met = site.filter(|site| Around::meets(site));
         self
     }
 
     /// Asks at a clock step whether the bud meets something.
     #[inline]
     pub(super) fn feel(&mut self) {
-        if let Some(around) = &mut self.around {
-            self.contact = u32::from(around.feel(self.plant));
+        let Some(site) = self.met else { return };
+        if self.around.is_some() || Around::feels(site, &self.model.contact) {
+            let plant = &*self.plant;
+            let around = self.around.get_or_insert_with(|| around(site, self.model, plant, self.bud));
+            self.contact = u32::from(around.feel(plant));
         }
     }
 
@@ -51,15 +55,14 @@ impl<'a> Axis<'a> {
     /// How the next node lies, of the type `short`, at `rank` of its growth unit; `None` where there is no way for it.
     #[inline]
     pub(super) fn lie(&mut self, rank: u32, short: bool) -> Option<Lie> {
-        if self.around.is_none() {
-            return Some(Lie::Free);
-        }
+        let Some(site) = self.met else { return Some(Lie::Free) };
         let at = self.at(rank);
         let (length, trend) = self.next_internode(at, short);
         let left = self.plant.axes.key[self.bud.axis.index()].0 & 1 == 1;
         let radius = 0.5 * f64::from(self.next_diameter(at));
         let next = Next { length: f64::from(length), radius, trend, left };
-        let Self { around: Some(around), plant, .. } = self else { return Some(Lie::Free) };
+        let plant = &*self.plant;
+        let around = self.around.get_or_insert_with(|| around(site, self.model, plant, self.bud));
         around.try_next(plant, next)
     }
 
@@ -112,4 +115,9 @@ impl<'a> Axis<'a> {
     fn obstruct(&mut self) -> Result<bool, Full> {
         self.end(ApexFate::Obstructed, EventKind::Obstructed, ApexEnd::Death)
     }
+}
+
+/// What is around a bud, found when it is first asked in a tick: before the axis has grown in it.
+fn around<'a>(site: &'a Site, model: &BudModel, plant: &Plant, bud: ApicalBud) -> Box<Around<'a>> {
+    Box::new(Around::of(site, model.contact, plant, bud.axis))
 }

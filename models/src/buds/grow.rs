@@ -19,6 +19,7 @@ use crate::law::{At, height_in_steps};
 use phytomer_sim::clock::{NEVER, Speed, Tick};
 use phytomer_sim::plant::{ApexFate, Event, EventKind, NodeId, Plant};
 use phytomer_sim::random::Purpose;
+use phytomer_sim::site::Site;
 
 /// The fewest nodes that an axis plans: one that grows on by a tick or two, and can make no more of them, makes each as
 /// it comes.
@@ -35,7 +36,9 @@ pub(super) struct Axis<'a> {
     dimension: u32,
     /// The height of the plant, in the steps in which laws know it; 0 where none asks.
     height: u32,
-    /// What the bud can meet, where there is anything; boxed, since most plants grow in the open.
+    /// The site, where shoots meet something on it.
+    pub met: Option<&'a Site>,
+    /// What the bud can meet there, once it has been asked; boxed, since most plants grow in the open.
     pub around: Option<Box<Around<'a>>>,
     /// Whether it meets something at this step: 1 or 0.
     pub contact: u32,
@@ -74,6 +77,7 @@ impl<'a> Axis<'a> {
             tick: bud.age,
             dimension: 0,
             height,
+            met: None,
             around: None,
             contact: 0,
             shade,
@@ -96,10 +100,7 @@ impl<'a> Axis<'a> {
     fn makes_columns(&self) -> bool {
         let responds = !self.laws.node.spare.places().is_empty();
         let in_full_light = self.laws.light_alone && self.shade == 0;
-        self.laws.node.block > 0
-            && self.around.is_none()
-            && self.plant.exposure.is_none()
-            && (!responds || in_full_light)
+        self.laws.node.block > 0 && self.met.is_none() && self.plant.exposure.is_none() && (!responds || in_full_light)
     }
 
     /// Reads the quantities that the axis has drawn at its birth and that its growth needs. They are the same each

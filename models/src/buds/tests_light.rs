@@ -13,7 +13,8 @@ use phytomer_sim::model::GrowthModel;
 use phytomer_sim::plant::{ApexFate, AxisId, Cause, EventKind, Plant};
 use phytomer_sim::plot::{Plot, Sowing};
 use phytomer_sim::shape::{Cuboid, Shape};
-use phytomer_sim::site::light::{Light, Lighting, Sky};
+use phytomer_sim::site::light::field::grid_of;
+use phytomer_sim::site::light::{Light, Lighting, Projection, Sky, Standing};
 use phytomer_sim::{Tick, grow};
 use std::sync::Arc;
 
@@ -211,6 +212,59 @@ fn a_plant_shades_itself_and_its_neighbours() {
     let made = [made(&alone), made(&together)];
     assert!(shaded[0] > 100 && shaded[1] > shaded[0], "{shaded:?} die of shade, alone and together");
     assert!(made[1] < made[0], "{made:?} components, alone and together");
+}
+
+/// Leaf area that is kept from tick to tick is that of all leaves added anew: of leaves that grow for some ticks, fall
+/// with their branches or before them; of leaves that turn, too.
+#[test]
+fn leaf_area_that_is_kept_is_that_of_all_leaves() {
+    let tree = |trend: serde_json::Value| {
+        let leaf = serde_json::json!({
+            "per_node": 2, "length_cm": 15, "width_cm": 9, "life": {"binomial": {"n": 6, "p": 0.5}}, "trend": trend,
+            "expansion": {"linear": {"over": "dimension", "start": 0.25, "slope": 0.25, "max": 1}},
+        });
+        let order = |insertion: f64, death: f64| {
+            serde_json::json!({
+                "insertion_deg": insertion, "death": death, "shed_after": 1, "leaf": leaf,
+                "axillary": {"buds": 1, "ramification": 0.6}, "internode": {"length_cm": 6, "diameter_mm": 3},
+            })
+        };
+        let response = serde_json::json!([{"acts_on": ["nodes"], "law": {"expression": "light"}, "reference": 1}]);
+        super::tests_contact::compiled(
+            serde_json::json!({"response": response, "order": [order(5.0, 0.0), order(60.0, 0.2), order(50.0, 0.3)]}),
+            20,
+        )
+    };
+    let turning = serde_json::json!({"inclination_deg": 150, "share": 0.2});
+    for (model, kept) in [(tree(serde_json::Value::Null), true), (tree(turning), false)] {
+        for projection in [Projection::Even(0.5), Projection::OfLeaves] {
+            let sowing = |number: u32| Sowing {
+                species: 0,
+                seed: seed_of(3, number),
+                place: [0.4 * f64::from(number), 0.1, 0.0],
+                sown: number,
+            };
+            let mut plot = Plot::new(0, vec![&model], &(0..5).map(sowing).collect::<Vec<_>>());
+            let sky = Sky { rings: 1, azimuths: 3, ..Sky::default() };
+            plot.site.light = Some(Light::of(Lighting { voxel_m: 0.2, projection, sky, ..Lighting::default() }));
+            plot.ask_light();
+            let (mut gone, mut is_kept) = (0, false);
+            for tick in 1..=16 {
+                plot.site.begin(tick);
+                plot.grow_to(tick).expect("room to grow");
+                plot.stand(tick);
+                let ages: Vec<Option<Tick>> = plot.members.iter().map(|member| member.age_at(tick)).collect();
+                let standing = Standing { plants: &plot.plants, ages: &ages, wood: false, feel: &[true; 5] };
+                let light = plot.site.light.as_ref().expect("light");
+                let fresh = grid_of(&light.lighting, &standing);
+                assert!(light.found.as_ref().expect("it was found").grid == fresh, "tick {tick}");
+                is_kept = light.counted.counts();
+                let organs = |plant: &Plant| plant.organs.death.iter().filter(|death| **death == tick).count();
+                gone += plot.plants.iter().map(organs).sum::<usize>();
+            }
+            assert!(gone > 50 && is_kept == kept, "{gone}, {is_kept}");
+        }
+    }
 }
 
 /// What is foretold is told of full light for responses, and of no light law.

@@ -7,12 +7,13 @@
 use super::BudModel;
 use super::tests_contact::{bush, compiled, fraction, nodes};
 use crate::contract::{components, grown_by_the_clock, seed_of};
-use phytomer_sim::plant::{NodeId, Plant};
+use phytomer_sim::plant::{NodeId, Plant, Rest};
 use phytomer_sim::plot::{Plot, Sowing};
 use phytomer_sim::pose::node_frame;
+use phytomer_sim::rotation::Rotation;
 use phytomer_sim::shape::Point;
 use phytomer_sim::site::solids::CLEARANCE;
-use phytomer_sim::site::stems::Whose;
+use phytomer_sim::site::stems::{Stems, Whose};
 use phytomer_sim::{Tick, grow};
 
 /// What rounding and the last round leave of a distance, metres.
@@ -261,6 +262,45 @@ fn neither_threads_nor_the_order_of_plants_show() {
             assert!(one.frames.base == other.frames.base && one.stated == other.stated);
         }
         assert!(all[0].iter().any(|plant| !plant.stated.is_empty()), "some are turned");
+    }
+}
+
+/// Stems that are kept from tick to tick are those of the plants: they come, grow thicker, fall with dead branches, and
+/// move as plants bend.
+#[test]
+fn stems_that_are_kept_are_those_of_the_plants() {
+    let order = |insertion: f64, death: f64| {
+        serde_json::json!({
+            "insertion_deg": insertion, "death": death, "shed_after": 1,
+            "axillary": {"buds": 2, "ramification": 0.5},
+            "internode": {"length_cm": 6, "diameter_mm": 3,
+                "thickening_mm": {"linear": {"over": "dimension", "start": 0, "slope": 2}}},
+        })
+    };
+    let text = serde_json::json!({"order": [order(5.0, 0.0), order(60.0, 0.2), order(50.0, 0.3)]});
+    let model = compiled(text, 20);
+    for whose in [Whose::Neighbours, Whose::All] {
+        let sowings: Vec<Sowing> = (0..4).map(|k| sowing(0, k, [0.2 * f64::from(k), 0.0, 0.0], 2 * k)).collect();
+        let mut plot = Plot::new(0, vec![&model], &sowings);
+        plot.site.whose_stems = whose;
+        let mut fallen = 0;
+        for tick in 1..=16 {
+            let ages: Vec<Option<Tick>> = plot.members.iter().map(|member| member.age_at(tick - 1)).collect();
+            let fresh = Stems::of(&plot.plants, &ages, whose);
+            plot.site.begin(tick);
+            plot.grow_to(tick).expect("room to grow");
+            assert!(plot.site.stems.as_deref() == Some(&fresh), "tick {tick}");
+            plot.stand(tick);
+            let falls = |plant: &Plant| plant.axes.shed.iter().filter(|shed| **shed == tick).count();
+            fallen += plot.plants.iter().map(falls).sum::<usize>();
+            if tick == 10 {
+                // As where a plant bends: all frames are made anew, somewhere else.
+                let node = NodeId(0);
+                plot.plants[1].state_rest(node, Rest::Turned(Rotation::about([1.0, 0.0, 0.0], 0.3)));
+                plot.stand(tick);
+            }
+        }
+        assert!(fallen > 20, "{fallen}");
     }
 }
 

@@ -29,6 +29,8 @@ pub struct Frames {
     pub(crate) age: Tick,
     /// The age before which frames are made: internodes that appeared earlier have their frame.
     pub(crate) posed: Tick,
+    /// Changes whenever frames that were there may have become others; new frames alone do not change it.
+    pub(crate) version: u64,
 }
 
 impl Frames {
@@ -49,6 +51,7 @@ impl Frames {
     /// Lets the next pose make every frame, and keeps the frames and the lengths that are there until then.
     pub(crate) fn make_anew(&mut self) {
         self.posed = 0;
+        self.version += 1;
         self.courses.clear();
     }
 
@@ -70,6 +73,7 @@ impl Frames {
     /// Makes room for the frames of every node of a plant that stands bent at `age`.
     pub(crate) fn bend(&mut self, nodes: usize, age: Tick) {
         self.resize_nodes(nodes);
+        self.version += 1;
         self.age = age;
     }
 

@@ -85,7 +85,7 @@ impl Plant {
     }
 
     /// Whether the length of any internode differs from its column at some age.
-    fn lengths_change(&self) -> bool {
+    pub(crate) fn lengths_change(&self) -> bool {
         !self.rewritten.changes.is_empty() || self.habit.looks.lengthen()
     }
 

@@ -166,6 +166,11 @@ impl OrganLook {
     pub fn share(&self, own_age: Tick) -> f32 {
         share(&self.expansion, own_age)
     }
+
+    /// Whether this share does not change any more from an own age on.
+    pub fn is_grown(&self, own_age: Tick) -> bool {
+        own_age as usize + 1 >= self.expansion.len()
+    }
 }
 
 /// The entry of a table at an own age: past the end the last entry, and 1 for an empty table.

@@ -1,7 +1,7 @@
 //! Which code makes the blocks of a stream: what this machine does fastest, found when the program runs.
 //!
 //! Every kernel makes the same words, so no result depends on the machine; tests compare each with `rand_chacha`. The
-//! standard library asks the processor once and keeps the answer. Here stands the only `unsafe` of this crate.
+//! standard library asks the processor once and keeps the answer. Here stands the `unsafe` of calls of such code.
 
 use super::block::{Block, Name, block};
 #[cfg(target_arch = "x86_64")]

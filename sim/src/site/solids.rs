@@ -56,6 +56,9 @@ pub struct Solids {
     tree: Tree,
     /// The height of the ground, metres.
     ground: Option<f64>,
+    /// Whether all that are solid within are of forms whose distance is exact, so that it is not less than that to
+    /// their bounds.
+    exact: bool,
 }
 
 #[derive(Debug, Clone, PartialEq)]
@@ -77,7 +80,11 @@ impl Solids {
         let solids: Vec<Solid> = obstacles.iter().filter_map(solid).collect();
         let bounds = |of: &Solid| if of.sign > 0.0 { of.shape.bounds() } else { Bounds::EVERYWHERE };
         let tree = Tree::of(&solids.iter().map(bounds).collect::<Vec<_>>());
-        Self { solids, tree, ground }
+        let is_exact = |shape: &Shape| {
+            matches!(shape, Shape::Cuboid(_) | Shape::Sphere(_) | Shape::Capsule(_) | Shape::HalfSpace(_))
+        };
+        let exact = solids.iter().all(|solid| solid.sign < 0.0 || is_exact(&solid.shape));
+        Self { solids, tree, ground, exact }
     }
 
     /// Whether there is nothing to meet.
@@ -177,8 +184,34 @@ impl Solids {
         }
     }
 
+    /// Whether all of the line between two points is known to be farther than a margin from each surface: it is above
+    /// the ground, and beyond one face of the bounds of each solid, where these are boxes, balls and the like. No
+    /// distance is asked.
+    pub fn is_beside(&self, ends: [Point; 2], margin: f64) -> bool {
+        // Far more than rounding moves a point of the line.
+        let margin = margin + 1e-9;
+        let beyond = |bounds: &Bounds| {
+            (0..3).any(|k| {
+                let [from, end] = ends.map(|end| end[k]);
+                from.max(end) < bounds.low[k] - margin || from.min(end) > bounds.high[k] + margin
+            })
+        };
+        let mut beside = self.exact && self.ground.is_none_or(|height| ends.iter().all(|end| end[2] - height > margin));
+        self.tree.walk(|_, bounds, item| {
+            if !beside || beyond(bounds) {
+                return Walk::Past;
+            }
+            beside = item.is_none();
+            Walk::Below
+        });
+        beside
+    }
+
     /// Whether each surface is farther than a margin from the way of this length, from a point that is in no solid.
     pub fn is_clear(&self, [from, heading]: [Point; 2], length: f64, margin: f64) -> bool {
+        if self.is_beside([from, along(from, heading, length)], margin) {
+            return true;
+        }
         let least = length / STEPS;
         let mut way = least;
         while way < length {
@@ -196,4 +229,53 @@ impl Solids {
 /// The point at a distance along a heading.
 pub(super) fn along(from: Point, heading: Point, way: f64) -> Point {
     [0, 1, 2].map(|k| from[k] + heading[k] * way)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::shape::{Cuboid, Ellipsoid, Sphere};
+
+    /// Numbers in [−1, 1) without an order.
+    fn points(mut state: u64) -> impl FnMut() -> Point {
+        let mut number = move || {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            (state >> 40) as f64 / f64::from(1 << 23) - 1.0
+        };
+        move || [number(), number(), number()]
+    }
+
+    /// A line that is known to be beside all solids has no point nearer to one, by steps along it; and most lines that
+    /// are far enough are known.
+    #[test]
+    fn a_line_beside_solids_meets_none() {
+        let block =
+            |shape| Obstacle { shape: Arc::new(shape), kills: Side::Inside, manner: Manner::Blocks { holds: false } };
+        let mut point = points(4);
+        let (mut known, mut clear) = (0, 0);
+        for _ in 0..200 {
+            let boxes = (0..4).map(|_| {
+                let (low, size) = (point(), point().map(|x| 0.2 * x.abs()));
+                block(Shape::Cuboid(Cuboid { low, high: [0, 1, 2].map(|k| low[k] + size[k]) }))
+            });
+            let mut all: Vec<Obstacle> = boxes.collect();
+            all.push(block(Shape::Sphere(Sphere { centre: point(), radius: 0.1 })));
+            let solids = Solids::of(&all, Some(-0.9));
+            for _ in 0..50 {
+                let (from, way) = (point(), point());
+                let end = [0, 1, 2].map(|k| from[k] + 0.3 * way[k]);
+                let at = |step: u32| [0, 1, 2].map(|k| from[k] + (end[k] - from[k]) * f64::from(step) / 100.0);
+                let least = (0..=100).filter_map(|step| solids.nearest(at(step), 9.0)).map(|near| near.distance);
+                let least = least.fold(f64::INFINITY, f64::min);
+                let beside = solids.is_beside([from, end], 0.02);
+                assert!(!beside || least > 0.02, "{from:?} {end:?}: {least}");
+                known += usize::from(beside);
+                clear += usize::from(least > 0.02);
+            }
+        }
+        assert!(known > 1_000 && 2 * known > clear, "{known} of {clear}");
+        let egg = Ellipsoid { centre: [0.0; 3], radii: [0.1, 0.2, 0.3] };
+        let solids = Solids::of(&[block(Shape::Ellipsoid(egg))], None);
+        assert!(!solids.is_beside([[5.0; 3], [6.0; 3]], 0.0), "its distance is not exact");
+    }
 }

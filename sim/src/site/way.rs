@@ -76,6 +76,11 @@ impl Solids {
     /// of an axis than its radius and ¼ of the clearance, or than it began if that is less. Cost: some dozens of
     /// distances, of solids and stems that are near alone.
     pub fn way(&self, step: &Step) -> Option<Point> {
+        let end = along(step.from, step.heading, step.length);
+        if step.hold.is_none() && step.stems.is_none() && self.is_beside([step.from, end], CLEARANCE + step.radius) {
+            // Nothing moves such an end.
+            return Some(step.heading);
+        }
         let trial = Trial::of(self, step);
         if let Some(free) = trial.relaxed(step.heading) {
             return Some(free);
@@ -179,6 +184,14 @@ impl<'a> Trial<'a> {
         (self.solids.distance(hold.surface, at), Vector::of(self.solids.outward(hold.surface, at)))
     }
 
+    /// The distance of a point from what a climber holds to, metres.
+    fn distance_held(&self, hold: &Hold, at: Point) -> f64 {
+        match hold.surface {
+            Surface::Wood => self.held_at(hold, at).0,
+            surface => self.solids.distance(surface, at),
+        }
+    }
+
     /// The end of a climber's internode, drawn towards the distance at which it lies. Wood that has grown thicker about
     /// it lets it out again.
     fn drawn(&self, end: Vector) -> Vector {
@@ -219,7 +232,7 @@ impl<'a> Trial<'a> {
     fn is_free(&self, heading: Point) -> bool {
         let Self { solids, step, margin } = *self;
         let end = along(step.from, heading, step.length);
-        if step.hold.is_some_and(|hold| self.held_at(&hold, end).0 > hold.reach) {
+        if step.hold.is_some_and(|hold| self.distance_held(&hold, end) > hold.reach) {
             return false;
         }
         let began_free = || solids.nearest(step.from, CLEARANCE).is_none_or(|near| near.distance >= 0.0);

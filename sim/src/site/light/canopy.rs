@@ -52,7 +52,7 @@ pub struct Standing<'a> {
 }
 
 impl Standing<'_> {
-    fn age_of(&self, plant: usize) -> Option<Tick> {
+    pub(super) fn age_of(&self, plant: usize) -> Option<Tick> {
         self.ages.get(plant).copied().flatten()
     }
 }
@@ -98,10 +98,14 @@ fn in_plot(plant: &Plant, at: [f32; 3]) -> Point {
 
 /// Shows the pieces of an organ, if it is a leaf that stands.
 pub fn leaf_pieces(plant: &Plant, organ: OrganId, age: Tick, longest: f64, show: &mut dyn FnMut(Piece)) {
-    let place = organ.index();
-    if !plant.organs.kind[place].is_foliage() || !plant.organ_stands(organ, age) {
-        return;
+    if plant.organs.kind[organ.index()].is_foliage() && plant.organ_stands(organ, age) {
+        pieces_of_leaf(plant, organ, age, longest, show);
     }
+}
+
+/// Shows the pieces of a leaf as it is at an age, whether it stands or not.
+pub(super) fn pieces_of_leaf(plant: &Plant, organ: OrganId, age: Tick, longest: f64, show: &mut dyn FnMut(Piece)) {
+    let place = organ.index();
     let area: f64 = plant.organ_area(organ, age);
     if area > 0.0 {
         let share = f64::from(plant.expanded(organ, age));

@@ -154,6 +154,42 @@ impl Grid {
         self.area[row * 8..row * 8 + 8].iter().enumerate().fold(marked as u8, with_leaves)
     }
 
+    /// The voxel into which a piece of leaf falls, the class of its normal and the units of its area.
+    pub(super) fn share(&self, piece: &Piece) -> (Voxel, usize, u64) {
+        let units = (piece.area * UNITS).round();
+        let class = if self.keeps_normals { class_of(piece.normal) } else { 0 };
+        // Neither negative nor no number; the cast saturates.
+        (self.within(self.voxel(piece.place)), class, units as u64)
+    }
+
+    /// Adds units of area to a voxel, or takes those away that it has.
+    pub(super) fn shift(&mut self, voxel: Voxel, class: usize, units: i64) {
+        let index = self.make(voxel);
+        self.area[index] = self.area[index].wrapping_add_signed(units);
+        if self.keeps_normals {
+            let of_class = &mut self.by_normal[index * CLASSES + class];
+            *of_class = of_class.wrapping_add_signed(units);
+        }
+    }
+
+    /// Forgets which voxels are marked.
+    pub(super) fn unmark(&mut self) {
+        self.marked.fill(0);
+    }
+
+    /// The same grid without bricks that hold nothing, in the order of their places.
+    pub(super) fn sorted(&self) -> Self {
+        let holds = |brick: &usize| {
+            self.marked[brick * WORDS..(brick + 1) * WORDS].iter().any(|word| *word > 0)
+                || self.area[brick * VOXELS..(brick + 1) * VOXELS].iter().any(|units| *units > 0)
+        };
+        let mut order: Vec<usize> = (0..self.bricks.len()).filter(holds).collect();
+        order.sort_unstable_by_key(|&brick| self.bricks[brick]);
+        let mut sorted = self.without_bricks();
+        sorted.take_in_order(self, &order);
+        sorted
+    }
+
     /// Adds all of another grid of the same plot.
     pub fn join(&mut self, other: &Self) {
         for (brick, place) in other.bricks.iter().enumerate() {
@@ -234,18 +270,41 @@ impl Grid {
     pub fn sort(&mut self) {
         let mut order: Vec<usize> = (0..self.bricks.len()).collect();
         order.sort_unstable_by_key(|&brick| self.bricks[brick]);
-        let sorted = |from: &[u64], each: usize| -> Vec<u64> {
-            if from.is_empty() {
-                return Vec::new();
+        let unsorted = std::mem::replace(self, self.without_bricks());
+        self.take_in_order(&unsorted, &order);
+    }
+
+    /// A grid of the same plot without bricks.
+    fn without_bricks(&self) -> Self {
+        Self {
+            bricks: Vec::new(),
+            area: Vec::new(),
+            by_normal: Vec::new(),
+            marked: Vec::new(),
+            table: Vec::new(),
+            least: [i32::MAX; 3],
+            most: [i32::MIN; 3],
+            last: 0,
+            ..*self
+        }
+    }
+
+    /// Takes some bricks of another grid, in an order.
+    fn take_in_order(&mut self, from: &Self, order: &[usize]) {
+        let taken = |column: &[u64], each: usize| -> Vec<u64> {
+            let mut taken = Vec::with_capacity(if column.is_empty() { 0 } else { order.len() * each });
+            if !column.is_empty() {
+                order.iter().for_each(|&brick| taken.extend_from_slice(&column[brick * each..(brick + 1) * each]));
             }
-            let mut sorted = Vec::with_capacity(from.len());
-            order.iter().for_each(|&brick| sorted.extend_from_slice(&from[brick * each..(brick + 1) * each]));
-            sorted
+            taken
         };
-        (self.area, self.by_normal) = (sorted(&self.area, VOXELS), sorted(&self.by_normal, VOXELS * CLASSES));
-        self.marked = sorted(&self.marked, WORDS);
-        self.bricks = order.iter().map(|&brick| self.bricks[brick]).collect();
-        self.last = 0;
+        (self.area, self.by_normal) = (taken(&from.area, VOXELS), taken(&from.by_normal, VOXELS * CLASSES));
+        self.marked = taken(&from.marked, WORDS);
+        self.bricks = order.iter().map(|&brick| from.bricks[brick]).collect();
+        for place in &self.bricks {
+            self.least = [0, 1, 2].map(|k| self.least[k].min(place[k]));
+            self.most = [0, 1, 2].map(|k| self.most[k].max(place[k]));
+        }
         self.table = vec![NONE; (self.bricks.len() * 4).next_power_of_two().max(64)];
         (0..self.bricks.len() as u32).for_each(|brick| self.place_in_table(brick));
     }

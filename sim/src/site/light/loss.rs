@@ -9,7 +9,10 @@ pub type Pair = [f64; 2];
 /// Below this the series alone is enough.
 const SMALL: f64 = 0.1;
 /// Below this the series of a sixteenth is, doubled four times.
-const MIDDLE: f64 = 1.6;
+pub(super) const MIDDLE: f64 = 1.6;
+/// The terms of (1 − e^(−x)) / x: 1, −1/2!, 1/3!, …
+pub(super) const SERIES: [f64; 8] =
+    [1.0, -1.0 / 2.0, 1.0 / 6.0, -1.0 / 24.0, 1.0 / 120.0, -1.0 / 720.0, 1.0 / 5_040.0, -1.0 / 40_320.0];
 /// 1 − e^(−x), for x of 0 or more, to 3 · 10⁻¹⁴ of it.
 #[inline]
 pub fn lost(x: f64) -> f64 {
@@ -19,18 +22,11 @@ pub fn lost(x: f64) -> f64 {
 /// The series up to x⁸: off by less than 3 · 10⁻¹⁴ of its value up to a tenth.
 #[inline(always)]
 fn series(x: Pair) -> Pair {
-    // The terms of (1 − e^(−x)) / x from the second on: −1/2!, 1/3!, …
-    const B: Pair = [-1.0 / 2.0; 2];
-    const C: Pair = [1.0 / 6.0; 2];
-    const D: Pair = [-1.0 / 24.0; 2];
-    const E: Pair = [1.0 / 120.0; 2];
-    const F: Pair = [-1.0 / 720.0; 2];
-    const G: Pair = [1.0 / 5_040.0; 2];
-    const H: Pair = [-1.0 / 40_320.0; 2];
     let square = times(x, x);
     let fourth = times(square, square);
-    let low = plus(plus([1.0; 2], times(x, B)), times(square, plus(C, times(x, D))));
-    let high = plus(plus(E, times(x, F)), times(square, plus(G, times(x, H))));
+    let pair = |k: usize| plus([SERIES[k]; 2], times(x, [SERIES[k + 1]; 2]));
+    let low = plus(pair(0), times(square, pair(2)));
+    let high = plus(pair(4), times(square, pair(6)));
     times(x, plus(low, times(fourth, high)))
 }
 

@@ -13,7 +13,10 @@
 
 pub mod beam;
 pub mod canopy;
+mod counted;
 pub mod field;
+#[cfg(target_arch = "x86_64")]
+mod four;
 pub mod grid;
 pub mod lattice;
 pub mod loss;
@@ -37,6 +40,7 @@ mod tests_sweep;
 mod tests_wall;
 
 pub use canopy::{Canopy, Piece, Standing};
+pub use counted::Counted;
 pub use field::Field;
 pub use sky::{Sky, SkyKind};
 pub use sun::SunPath;
@@ -136,17 +140,19 @@ pub struct Light {
     pub told: bool,
     /// What was found when the plants last stood.
     pub found: Option<Arc<Field>>,
+    /// The leaf area that they had then.
+    pub counted: Counted,
 }
 
 impl Light {
     /// The light of a plot before its first tick, which nobody asks for yet.
     pub fn of(lighting: Lighting) -> Self {
-        Self { lighting, felt: false, told: false, found: None }
+        Self { lighting, felt: false, told: false, found: None, counted: Counted::default() }
     }
 
     /// That of a plot at another place, `by` metres farther.
     pub fn moved(&self, by: Point) -> Self {
-        Self { lighting: self.lighting.moved(by), found: None, ..*self }
+        Self { felt: self.felt, told: self.told, ..Self::of(self.lighting.moved(by)) }
     }
 }
 

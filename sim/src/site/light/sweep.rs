@@ -5,10 +5,12 @@
 //! four are asked at once for their ways in the voxel, the longest common stretch of its three pairs of faces (Kay &
 //! Kajiya 1986, "Ray tracing complex scenes"); one that passes beside it has none. Voxels are taken in an order in
 //! which no beam comes to one before those that lie in front of it, and beams keep what is left of them from voxel to
-//! voxel.
+//! voxel. Machines that hold four numbers in a register ask the four beams at once (`four`).
 //! Absent: plots that repeat and opaque shapes, for which beams are followed one by one (`beam`).
 
 use super::beam::Shone;
+#[cfg(target_arch = "x86_64")]
+use super::four;
 use super::grid::{BITS, EDGE, Grid};
 use super::lattice::{across, shift_of};
 use super::loss::{Pair, lost_of_each, plus, times};
@@ -82,7 +84,36 @@ struct About {
 }
 
 /// Sends the beams of a source through the wanted voxels of a grid on open ground, which have these extinctions, 1/m.
+#[allow(unsafe_code, reason = "the call of a function whose instructions not every machine has")]
 pub fn shine(grid: &Grid, wanted: &Wanted, extinction: &[f64], source: &Source) -> Shone {
+    #[cfg(target_arch = "x86_64")]
+    if is_x86_feature_detected!("avx2") {
+        // SAFETY: safe code without a pointer; the call asks only that the machine has its instructions, as it says.
+        return unsafe { shine_by_fours(grid, wanted, extinction, source) };
+    }
+    shine_by_pairs(grid, wanted, extinction, source)
+}
+
+/// By the registers of any machine.
+pub(super) fn shine_by_pairs(grid: &Grid, wanted: &Wanted, extinction: &[f64], source: &Source) -> Shone {
+    shine_by(grid, wanted, extinction, source, |beams, about, voxel, k| beams.cross(about, voxel, k))
+}
+
+/// The same, by registers of four numbers.
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx2")]
+fn shine_by_fours(grid: &Grid, wanted: &Wanted, extinction: &[f64], source: &Source) -> Shone {
+    shine_by(grid, wanted, extinction, source, |beams, about, voxel, k| beams.cross_by_fours(about, voxel, k))
+}
+
+#[inline(always)]
+fn shine_by(
+    grid: &Grid,
+    wanted: &Wanted,
+    extinction: &[f64],
+    source: &Source,
+    cross: impl Fn(&mut Beams, &About, [usize; 3], f64) -> (Pair, f64),
+) -> Shone {
     let edge = grid.edges[0];
     let mut beams = Beams::of(source, edge);
     let mut along = vec![[0.0; 2]; extinction.len()];
@@ -92,7 +123,7 @@ pub fn shine(grid: &Grid, wanted: &Wanted, extinction: &[f64], source: &Source) 
         let Some(filled) = wanted.box_of(brick as usize) else { continue };
         let about = beams.about(grid.bricks[brick as usize], filled);
         wanted.each_of(brick as usize, way, |voxel, number| {
-            let (sums, lost) = beams.cross(&about, voxel, extinction[number]);
+            let (sums, lost) = cross(&mut beams, &about, voxel, extinction[number]);
             along[number] = sums;
             kept += lost;
         });
@@ -236,6 +267,32 @@ impl Beams {
         let lost = plus(one, other);
         let lost = lost[0] + lost[1];
         ([lost / k, of_ways], lost)
+    }
+
+    /// As [`Beams::cross`], by registers of four numbers.
+    #[cfg(target_arch = "x86_64")]
+    #[inline]
+    #[target_feature(enable = "avx2")]
+    fn cross_by_fours(&mut self, about: &About, voxel: [usize; 3], k: f64) -> (Pair, f64) {
+        let View { axes: [level, upward], half, faces } = &self.view;
+        let [x, y, z] = voxel.map(|place| PLACES[place % PLACES.len()]);
+        let u = (about.middle[0] + (level[1] * y + level[2] * z)) + level[0] * x;
+        let v = (about.middle[1] + (upward[1] * y + upward[2] * z)) + upward[0] * x;
+        let (above, row) = nearest(v - half[1]);
+        let (first, one) = nearest(u - half[0] - about.shifts[row % BEAMS]);
+        let (second, other) = nearest(u - half[0] - about.shifts[(row + 1) % BEAMS]);
+        let places = [(row, one), (row, one + 1), (row + 1, other), (row + 1, other + 1)];
+        let places = places.map(|(row, column)| about.place(row, column));
+        let rays = places.map(|place| {
+            let Ray { at: [aside, above], light } = self.rays[place];
+            [aside, above, light]
+        });
+        let aside = [[first - u, second - u], [above - v, above + 1.0 - v]];
+        let (sums, lost, left) = four::cross(faces, rays, aside, k);
+        if k > 0.0 {
+            (0..4).for_each(|lane| self.rays[places[lane]].light = left[lane]);
+        }
+        (sums, lost)
     }
 
     /// The two beams of a row that may meet the voxel whose middle is seen at `u`, so far below the row.

@@ -48,6 +48,14 @@ fn voxels_find_what_beams_leave_in_them() {
         assert!(met * 10 > 9 * wanted.count(), "{source:?}: {met} of {}", wanted.count());
         let kept = |shone: &Shone| shone.balance.kept;
         assert!(near(kept(&asked), kept(&followed), kept(&followed)) && kept(&asked) > 0.5);
+        // Whatever registers the machine has, also where leaves are so dense that exponentials are needed.
+        for factor in [1.0, 400.0] {
+            let dense: Vec<f64> = extinction.iter().map(|k| k * factor).collect();
+            let asked = sweep::shine(&grid, &wanted, &dense, &source);
+            let by_pairs = sweep::shine_by_pairs(&grid, &wanted, &dense, &source);
+            assert_eq!(asked.along, by_pairs.along, "{source:?}");
+            assert_eq!(asked.balance, by_pairs.balance, "{source:?}");
+        }
         let balance = asked.balance;
         assert!(near(balance.sent, balance.kept + balance.passed, balance.sent), "{balance:?}");
     }

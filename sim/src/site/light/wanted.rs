@@ -81,7 +81,7 @@ impl Wanted {
 
     /// Shows the wanted voxels of a brick in an order in which light along a way that goes down meets them: their
     /// places in the brick, and their numbers.
-    #[inline]
+    #[inline(always)]
     pub fn each_of(&self, brick: usize, way: Point, mut show: impl FnMut([usize; 3], usize)) {
         let falls = [way[0] < 0.0, way[1] < 0.0];
         for z in (0..EDGE as usize).rev() {

@@ -5,7 +5,7 @@
 //! line of the new internode, in metres, negative within the wood.
 
 use super::segments::Segment;
-use super::{Stem, Stems, Whose};
+use super::{Stem, Stems};
 use crate::shape::Point;
 use crate::site::solids::{Cone, along};
 use crate::vector::Vector;
@@ -28,9 +28,11 @@ pub struct Spared {
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Beside {
     stems: Vec<Near>,
-    /// The ball in which all stems are known.
+    /// The ball of which it knows, or will know when it is asked, all stems.
     middle: Point,
     reach: f64,
+    /// Whether it knows them.
+    known: bool,
 }
 
 /// A stem near a bud, metres in the plot.
@@ -78,27 +80,51 @@ impl Near {
 
 impl Beside {
     /// No stems at all.
-    pub const NONE: &'static Self = &Self { stems: Vec::new(), middle: [0.0; 3], reach: 0.0 };
+    pub const NONE: &'static Self = &Self { stems: Vec::new(), middle: [0.0; 3], reach: 0.0, known: true };
+
+    /// Whether no stem is known.
+    pub fn is_none(&self) -> bool {
+        self.stems.is_empty()
+    }
 
     /// Makes sure that all stems nearer than `reach` to a point are known. Whether there are any near it.
     pub fn look(&mut self, all: &Stems, point: Point, reach: f64, spared: Spared) -> bool {
-        let moved = length(Vector::of(point) - Vector::of(self.middle));
-        // A not so small ball, since the shoot grows on.
-        if self.reach == 0.0 || moved + reach > self.reach {
-            (self.middle, self.reach) = (point, 2.0 * reach);
+        self.move_to(point, reach);
+        if !self.known {
+            self.known = true;
             self.stems.clear();
-            let Self { stems, reach, .. } = self;
-            all.each_near(point, *reach, spared, &mut |plant, stem| {
-                stems.push(Near::of(stem, plant.place, plant.number));
+            all.each_near(self.middle, self.reach, spared, &mut |plant, stem| {
+                self.stems.push(Near::of(stem, plant.place, plant.number));
             });
         }
         !self.stems.is_empty()
     }
 
-    /// Whether a stem that is known is nearer than `reach` to a point.
-    pub fn any_within(&self, point: Point, reach: f64) -> bool {
-        let point = Vector::of(point);
-        self.stems.iter().any(|stem| stem.distance(point) < reach)
+    /// Lays the ball about a point where it does not hold all that is nearer than `reach` to it.
+    fn move_to(&mut self, point: Point, reach: f64) {
+        let moved = length(Vector::of(point) - Vector::of(self.middle));
+        // A not so small ball, since the shoot grows on.
+        if self.reach == 0.0 || moved + reach > self.reach {
+            (self.middle, self.reach, self.known) = (point, 2.0 * reach, false);
+            self.stems.clear();
+        }
+    }
+
+    /// Makes sure that the stems are known that are nearer than `reach` and `more` to a point, of those that
+    /// [`Beside::look`] makes known. Whether there are any; most buds have none so near, which is soon found.
+    pub fn glance(&mut self, all: &Stems, point: Point, [reach, more]: [f64; 2], spared: Spared) -> bool {
+        self.move_to(point, reach);
+        let (at, reach) = (Vector::of(point), reach + more);
+        if !self.known {
+            let ball = (self.middle, self.reach);
+            self.stems.clear();
+            all.each_near(point, reach + ROUNDING, spared, &mut |plant, stem| {
+                if stem.is_near(plant, ball.0, ball.1) {
+                    self.stems.push(Near::of(stem, plant.place, plant.number));
+                }
+            });
+        }
+        self.stems.iter().any(|stem| stem.distance(at) < reach)
     }
 
     /// Where the internode from one point to another comes nearer to a stem than `room` and than it began, by the most;
@@ -206,13 +232,6 @@ impl Near {
         };
         let outward = if length(between) > ROUNDING { between.unit() } else { None };
         outward.or_else(across).or_else(any).map_or([0.0, 0.0, 1.0], point_of)
-    }
-}
-
-impl Stems {
-    /// Whether there is nothing that a shoot may meet.
-    pub fn is_empty(&self) -> bool {
-        self.whose == Whose::Nobody || self.plants.iter().all(|plant| plant.stems.is_empty())
     }
 }
 

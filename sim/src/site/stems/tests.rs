@@ -4,23 +4,92 @@ use super::beside::Near;
 use super::*;
 use crate::site::solids::Cone;
 
-/// A plant of upright stems, each an axis of its own.
+/// A plant of stems, each an axis of its own.
 fn of_plant(number: u32, place: Point, stems: &[([f32; 3], [f32; 3], f32)]) -> OfPlant {
-    let mut of = OfPlant::empty(number, place);
     let stem = |(axis, &(start, end, radius)): (usize, &([f32; 3], [f32; 3], f32))| Stem {
         start,
         end,
         radii: [radius, 0.5 * radius],
         axis: axis as u32,
+        entered: radius,
+        turn: false,
     };
-    let all: Vec<Stem> = stems.iter().enumerate().map(stem).collect();
-    all.chunks(3).for_each(|piece| of.add(piece.iter().copied()));
-    of
+    let stems: Vec<Stem> = stems.iter().enumerate().map(stem).collect();
+    let (standing, length) = (stems.len(), stems.iter().map(Stem::extent).sum());
+    OfPlant { number, place, stems, standing, length, ..OfPlant::default() }
 }
 
 fn stems(plants: Vec<OfPlant>, whose: Whose) -> Stems {
-    let tree = Tree::of(&plants.iter().map(OfPlant::bounds).collect::<Vec<_>>());
-    Stems { whose, plants, tree }
+    let mut stems = Stems { whose, plants, cells: Cells::default() };
+    stems.enter();
+    stems
+}
+
+/// Numbers in [0, 1) without an order.
+fn fractions(mut state: u64) -> impl FnMut() -> f32 {
+    move || {
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (state >> 40) as f32 / (1 << 24) as f32
+    }
+}
+
+/// Stems that come, move, grow thicker and fall, among them some that pass through very many cells, are found where
+/// they are as those that are entered at once.
+#[test]
+fn stems_that_change_are_found_where_they_are() {
+    let mut fraction = fractions(11);
+    let mut stem = |axis: u32, along: f32, radius: f32| {
+        let start = [0, 1, 2].map(|_| 2.0 * fraction());
+        let end = start.map(|x| x + along * (fraction() - 0.5));
+        let radii = [radius * fraction(), radius * fraction()];
+        Stem { start, end, radii, axis, entered: radii[0].max(radii[1]), turn: false }
+    };
+    let place = [3.0, -7.0, 0.5];
+    let first: Vec<Stem> = (0..200).map(|axis| stem(axis, if axis % 50 == 0 { 300.0 } else { 0.2 }, 0.02)).collect();
+    let of = |stems: &[Stem]| {
+        let standing: Vec<&Stem> = stems.iter().filter(|stem| stem.entered >= 0.0).collect();
+        let length = standing.iter().map(|stem| stem.extent()).sum();
+        OfPlant { number: 5, place, standing: standing.len(), length, stems: stems.to_vec(), ..OfPlant::default() }
+    };
+    let mut kept = stems(vec![of(&first)], Whose::Neighbours);
+    let (mut found, mut made_anew) = (0, 0);
+    for round in 0..40 {
+        // At the end stems become ever longer, so that other cells suit them.
+        let longer = if round < 30 { 0.2 } else { 0.6 };
+        let mut now = kept.plants[0].stems.clone();
+        let changed: Vec<(u32, Stem)> = (0..200_u32)
+            .filter(|node| (node * 7 + round) % 5 == 0)
+            .map(|node| {
+                let was = std::mem::replace(&mut now[node as usize], stem(node, longer, 0.05));
+                if (node + round) % 3 == 0 {
+                    now[node as usize] = Stem::NONE;
+                }
+                (node, was)
+            })
+            .collect();
+        let suited = kept.cells.suit(of(&now).length / of(&now).standing as f64);
+        made_anew += usize::from(!suited);
+        kept.plants[0] = OfPlant { changed, ..of(&now) };
+        kept.enter();
+        let fresh = stems(vec![of(&now)], Whose::Neighbours);
+        assert!(kept == fresh);
+        for _ in 0..150 {
+            let point = place.map(|at| at + f64::from(stem(0, 0.0, 0.0).start[0]));
+            let reach = f64::from(stem(0, 0.0, 0.0).start[1]) * 0.1;
+            let near = |stems: &Stems| {
+                let mut near = Vec::new();
+                stems.each_near(point, reach, Spared::default(), &mut |_, stem| near.push(stem.axis));
+                near
+            };
+            let at = [0, 1, 2].map(|k| point[k] - place[k]);
+            let standing = now.iter().filter(|stem| stem.entered >= 0.0);
+            let expected: Vec<u32> = standing.filter(|stem| stem.distance(at) < reach).map(|stem| stem.axis).collect();
+            assert_eq!(near(&kept), expected, "round {round}");
+            assert_eq!(near(&fresh), expected, "round {round}");
+            found += expected.len();
+        }
+    }
+    assert!(found > 1_000 && made_anew > 0, "{found} {made_anew}");
 }
 
 #[test]
