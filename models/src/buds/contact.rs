@@ -18,11 +18,10 @@ use phytomer_sim::site::stems::Beside;
 use phytomer_sim::site::way::Step;
 
 impl<'a> Axis<'a> {
-    /// The axis with what is around its bud.
-    pub fn among(mut self, site: Option<&'a Site>) -> Self {
+    /// Finds what is around its bud.
+    pub fn look_around(&mut self, site: Option<&'a Site>) {
         let around = site.and_then(|site| Around::of(site, self.model.contact, self.plant, self.bud.axis));
         self.around = around.map(Box::new);
-        self
     }
 
     /// Asks at a clock step whether the bud meets something.

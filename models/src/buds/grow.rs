@@ -120,7 +120,7 @@ impl<'a> Axis<'a> {
     /// Grows the axis to `age`. Its bud joins the living ones, unless the apex has come to its end. Linear in the ticks
     /// and in the components made. Nodes that the axis has planned may be left to be made later, with those of the axes
     /// that grow next.
-    pub fn grow(mut self, age: Tick) -> Result<(), Full> {
+    pub fn grow(&mut self, age: Tick) -> Result<(), Full> {
         let last = age.min(self.whole_death.saturating_sub(1));
         let fewest = if self.words.many_begin { 1 } else { FEWEST };
         let most_nodes = last.saturating_sub(self.bud.age).saturating_mul(self.laws.node.most_nodes);
@@ -129,6 +129,9 @@ impl<'a> Axis<'a> {
             self.make_planned()?;
         }
         let in_all = self.speed.steps_by(last.saturating_sub(self.birth));
+        if !self.plans && most_nodes > 0 && in_all > self.bud.cycle {
+            self.read_both();
+        }
         let mut at = self.at(0);
         for tick in self.bud.age + 1..=last {
             self.set_tick(tick);
@@ -151,6 +154,13 @@ impl<'a> Axis<'a> {
         }
         living.push(self.bud);
         Ok(())
+    }
+
+    /// Makes the blocks of words in which the next step and the next node stand.
+    #[inline]
+    fn read_both(&mut self) {
+        let key = self.plant.axes.key[self.bud.axis.index()];
+        self.words.read_both(self.laws, &self.plant.random, key, (self.bud.cycle, self.bud.rank));
     }
 
     /// Puts the clock of the axis to `tick`.

@@ -101,8 +101,11 @@ impl BudModel {
         age: Tick,
         words: &mut Words,
     ) -> Result<(), Overgrown> {
-        let limit = Overgrown::of(plant);
-        Axis::new(self, plant, words, bud).among(site).grow(age).map_err(|Full| limit)
+        let mut axis = Axis::new(self, plant, words, bud);
+        if site.is_some() {
+            axis.look_around(site);
+        }
+        axis.grow(age).map_err(|Full| Overgrown::of(plant))
     }
 
     /// Makes the nodes that axes have left to be made.

@@ -102,6 +102,19 @@ impl Words {
         }
     }
 
+    /// Makes the blocks in which the records of a step and of a node begin, each from 0, side by side.
+    #[inline]
+    pub fn read_both(&mut self, laws: &OrderLaws, random: &PlantRandom, key: LineageKey, (step, node): (u32, u32)) {
+        let (of_step, of_node) = (laws.step.width, laws.node.width);
+        if of_step > 0 && of_node > 0 {
+            let bud = self.bud.get_or_insert_with(|| random.stream(key, Purpose::Bud));
+            bud.seek(laws.head.width as u64 + start(step, of_step as u32));
+            let nodes = self.node.insert(random.stream(key, Purpose::Node));
+            nodes.seek(start(node, of_node as u32));
+            Stream::reach_both(bud, nodes);
+        }
+    }
+
     /// Whether the words of responses are read.
     fn responds(&self, laws: &OrderLaws) -> bool {
         self.shaded || !laws.light_alone
@@ -116,7 +129,7 @@ impl Words {
         let number = if alone { 1 } else { (ahead as usize).min(most).max(1) };
         let into = self.steps.begin_at(step, number, laws.step.spare.words() + (number - 1) * width);
         let stream = self.bud.get_or_insert_with(|| random.stream(key, Purpose::Bud));
-        stream.seek(laws.head.width as u64 + u64::from(step) * width as u64);
+        stream.seek(laws.head.width as u64 + start(step, width as u32));
         stream.read(&mut into[..number * width]);
     }
 
