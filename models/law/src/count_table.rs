@@ -37,6 +37,7 @@ pub struct CountTable {
     cells: Vec<u32>,
     distributions: Vec<Distribution>,
     thresholds: Vec<u32>,
+    guides: Guides,
     /// The largest count that can be drawn in a run of any length; `None` where a longer run has the same parameters.
     goes_on_to: Option<u32>,
 }
@@ -99,11 +100,16 @@ impl CountTable {
             table.grid = Grid::single();
             table.cells.truncate(1);
         }
+        if table.distributions.len() <= MOST_GUIDED {
+            let thresholds = |of: &Distribution| &table.thresholds[of.start as usize..(of.start + of.len) as usize];
+            table.guides = Guides::to(table.distributions.iter().map(thresholds));
+        }
         Ok(table)
     }
 
     fn empty(grid: Grid) -> Self {
-        Self { grid, cells: Vec::new(), distributions: Vec::new(), thresholds: Vec::new(), goes_on_to: None }
+        let (cells, distributions, thresholds, guides) = (Vec::new(), Vec::new(), Vec::new(), Guides::default());
+        Self { grid, cells, distributions, thresholds, guides, goes_on_to: None }
     }
 
     /// Adds the joint distribution of all sources with the given parameters. Returns the number of steps that this
@@ -167,18 +173,27 @@ impl CountTable {
         (distribution, &self.thresholds[start..start + distribution.len as usize])
     }
 
-    /// The count at a point, drawn with one uniform 32-bit word: a binary search among the thresholds.
+    /// The count at a point, drawn with one uniform 32-bit word: a search among few of the thresholds.
     #[inline]
     pub fn sample(&self, word: u32, at: At) -> u32 {
-        let (distribution, thresholds) = self.at(at);
-        distribution.first + not_above(thresholds, word)
+        let mut count = 0;
+        self.sample_many(at, std::iter::once((word, &mut count)));
+        count
     }
 
     /// Many counts at one point, each with its own word into its own place. Each is that of [`Self::sample`].
     #[inline]
     pub fn sample_many<'a>(&self, at: At, draws: impl Iterator<Item = (u32, &'a mut u32)>) {
-        let (distribution, thresholds) = self.at(at);
-        draws.for_each(|(word, into)| *into = distribution.first + not_above(thresholds, word));
+        let number = self.cells[self.grid.cell(at)] as usize;
+        let Distribution { start, len, first, .. } = self.distributions[number];
+        let thresholds = &self.thresholds[start as usize..(start + len) as usize];
+        match self.guides.of(number) {
+            Some(guide) => draws.for_each(|(word, into)| {
+                let (low, high) = guide.ends(word);
+                *into = first + low as u32 + not_above(&thresholds[low..high], word);
+            }),
+            None => draws.for_each(|(word, into)| *into = first + not_above(thresholds, word)),
+        }
     }
 
     /// How often the distribution can change along the nodes of an axis.
@@ -269,6 +284,47 @@ impl CountTable {
             before = words;
         }
         pmf
+    }
+}
+
+/// The most distributions of a table that are guided, so that all guides together take a few kilobytes.
+const MOST_GUIDED: usize = 64;
+/// The high bits of a word that its guide asks.
+const GUIDE_BITS: u32 = 6;
+const GUIDED: usize = 1 << GUIDE_BITS;
+
+/// Where in each distribution the search begins and ends, by the high bits of a word (Chen and Asau 1974).
+#[derive(Clone, Debug, Default, PartialEq)]
+struct Guides(Vec<Guide>);
+
+/// For each value of the high bits, and for the end, how many thresholds lie below all words that begin so.
+#[derive(Clone, Debug, PartialEq)]
+struct Guide([u16; GUIDED + 1]);
+
+impl Guides {
+    /// Guides to distributions with these thresholds.
+    fn to<'a>(distributions: impl Iterator<Item = &'a [u32]>) -> Self {
+        let guide = |thresholds: &[u32]| {
+            Guide(std::array::from_fn(|high| {
+                let first = (high as u64) << (32 - GUIDE_BITS);
+                thresholds.partition_point(|&threshold| u64::from(threshold) <= first) as u16
+            }))
+        };
+        Self(distributions.map(guide).collect())
+    }
+
+    #[inline]
+    fn of(&self, distribution: usize) -> Option<&Guide> {
+        self.0.get(distribution)
+    }
+}
+
+impl Guide {
+    /// How many thresholds are certainly not above a word, and how many may be.
+    #[inline]
+    fn ends(&self, word: u32) -> (usize, usize) {
+        let high = (word >> (32 - GUIDE_BITS)) as usize;
+        (self.0[high].into(), self.0[high + 1].into())
     }
 }
 

@@ -138,6 +138,24 @@ impl At {
         self.all()[axis_of(variable)]
     }
 
+    /// The value of one variable, by its place in [`Self::all`].
+    #[inline]
+    pub(super) fn along(&self, axis: usize) -> u32 {
+        match axis {
+            0 => self.age,
+            1 => self.dimension,
+            2 => self.cycle,
+            3 => self.rank,
+            4 => self.bud_birth,
+            5 => self.bud_dimension,
+            6 => self.unit,
+            7 => self.height,
+            8 => self.contact,
+            9 => self.shade,
+            _ => self.state.into(),
+        }
+    }
+
     #[inline]
     pub(super) fn all(&self) -> [u32; AXES] {
         let (bud_birth, bud_dimension) = (self.bud_birth, self.bud_dimension);

@@ -109,7 +109,7 @@ impl Grid {
         match (self.len, self.only) {
             (1, _) => 0,
             // The stride of an only variable is 1.
-            (_, Some(axis)) => at.all()[axis].saturating_sub(self.first[axis]).min(self.span[axis]) as usize,
+            (_, Some(axis)) => at.along(axis).saturating_sub(self.first[axis]).min(self.span[axis]) as usize,
             (_, None) => self.cell_among(&at),
         }
     }

@@ -89,24 +89,41 @@ const WITHIN: u32 = 32 - BIN_BITS;
 /// The outer bins, at either end, in which a chord is too far from the curve.
 const TAIL_BINS: usize = 64;
 
+const BINS: usize = 1 << BIN_BITS;
+
 /// The quantile at the lower end of each bin.
-static BINS: LazyLock<Vec<f64>> = LazyLock::new(|| {
-    let bins = 1_u32 << BIN_BITS;
-    (0..=bins).map(|bin| quantile((f64::from(bin) / f64::from(bins)).clamp(1e-9, 1.0 - 1e-9))).collect()
+static ENDS: LazyLock<Box<[f64; BINS + 1]>> = LazyLock::new(|| {
+    let end = |bin: usize| quantile((bin as f64 / BINS as f64).clamp(1e-9, 1.0 - 1e-9));
+    Box::new(std::array::from_fn(end))
 });
 
-/// The normal deviate of a uniform 32-bit word: chords of 2⁻¹² in the middle, within 1.2e-5 of the quantile, and the
-/// quantile itself beyond ±2.15.
-#[inline]
-pub(super) fn deviate(word: u32) -> f64 {
-    let bins = BINS.as_slice();
-    let bin = (word >> WITHIN) as usize;
-    if !(TAIL_BINS..bins.len() - 1 - TAIL_BINS).contains(&bin) {
-        return quantile(share(word));
+/// Normal deviates; whoever makes one draws many.
+#[derive(Clone, Copy)]
+pub(super) struct Deviates(&'static [f64; BINS + 1]);
+
+impl Deviates {
+    #[inline]
+    pub fn new() -> Self {
+        Self(&ENDS)
     }
-    let (low, high) = (bins[bin], bins[bin + 1]);
-    let within = f64::from(word & ((1 << WITHIN) - 1)) * (1.0 / f64::from(1_u32 << WITHIN));
-    low + (high - low) * within
+
+    /// The normal deviate of a uniform 32-bit word: chords of 2⁻¹² in the middle, within 1.2e-5 of the quantile, and
+    /// the quantile itself beyond ±2.15.
+    #[inline(always)]
+    pub fn of(self, word: u32) -> f64 {
+        let bin = (word >> WITHIN) as usize;
+        if bin.wrapping_sub(TAIL_BINS) >= BINS - 2 * TAIL_BINS {
+            return far(word);
+        }
+        let (low, high) = (self.0[bin], self.0[bin + 1]);
+        let within = f64::from(word & ((1 << WITHIN) - 1)) * (1.0 / f64::from(1_u32 << WITHIN));
+        low + (high - low) * within
+    }
+}
+
+#[inline(never)]
+fn far(word: u32) -> f64 {
+    quantile(share(word))
 }
 
 #[cfg(test)]
@@ -115,10 +132,10 @@ mod tests {
 
     #[test]
     fn deviates_follow_the_quantile_and_rise_with_the_word() {
-        let mut before = f64::NEG_INFINITY;
+        let (deviates, mut before) = (Deviates::new(), f64::NEG_INFINITY);
         for i in 0..200_000_u32 {
             let word = i.wrapping_mul(21_474);
-            let (drawn, exact) = (deviate(word), quantile(share(word)));
+            let (drawn, exact) = (deviates.of(word), quantile(share(word)));
             assert!((drawn - exact).abs() < 1.2e-5, "{word}: {drawn} is not {exact}");
             assert!(drawn >= before, "{word}");
             before = drawn;

@@ -11,7 +11,7 @@ use super::domain::{At, Domain};
 use super::form::Law;
 use super::formula::{self, Formula};
 use super::grid::Grid;
-use super::quantile::{density, deviate, phi};
+use super::quantile::{Deviates, density, phi};
 use super::range::ValueRange;
 use super::variate::{Lognormal, Normal, Uniform, Variate, VariateForm};
 use super::varies::Varies;
@@ -241,8 +241,14 @@ impl VariateTable {
         match &self.kind {
             Kind::Value => draws.for_each(|(_, into)| *into = finish(a)),
             Kind::Uniform => draws.for_each(|(word, into)| *into = finish(a + (b - a) * share(word))),
-            Kind::Normal => draws.for_each(|(word, into)| *into = finish(a + b * deviate(word))),
-            Kind::Lognormal => draws.for_each(|(word, into)| *into = finish(math::exp(a + b * deviate(word)))),
+            Kind::Normal => {
+                let deviates = Deviates::new();
+                draws.for_each(|(word, into)| *into = finish(a + b * deviates.of(word)));
+            }
+            Kind::Lognormal => {
+                let deviates = Deviates::new();
+                draws.for_each(|(word, into)| *into = finish(math::exp(a + b * deviates.of(word))));
+            }
             Kind::Empirical(values) => {
                 draws.for_each(|(word, into)| *into = finish(values[pick(word, values.len())]));
             }
@@ -317,9 +323,11 @@ impl VariateTable {
         }
     }
 
+    // Parameters are finite, so that no value is without order: one instruction a bound.
     #[inline]
     fn clamp(&self, value: f64) -> f64 {
-        value.max(self.low).min(self.high)
+        let value = if value < self.low { self.low } else { value };
+        if value > self.high { self.high } else { value }
     }
 
     fn uniform_mean(&self, a: f64, b: f64) -> f64 {

@@ -20,7 +20,7 @@ impl Axis<'_> {
             return false;
         }
         let death = &self.laws.step.death;
-        let word = death.first_word(&self.words.step).unwrap_or_else(|| {
+        let word = death.first_word(self.words.step()).unwrap_or_else(|| {
             let key = self.plant.axes.key[self.bud.axis.index()];
             self.words.of_step(&self.plant.random, key, self.bud.cycle - 1, PLACE_OF_DEATH)
         });

@@ -46,4 +46,10 @@ impl ApicalBud {
         let last_node = joint.below(self.last_node, self.axis, self.rank);
         Self { axis: joint.axis(self.axis), last_node, ..self }
     }
+
+    /// The bud behind nodes that have been made since: `made` is the bud that planned them, as they left it.
+    pub(super) fn behind(self, made: &Self) -> Self {
+        let Self { passages, rank, last_node, azimuth, dormant, bud_spacing, .. } = *made;
+        Self { passages, rank, last_node, azimuth, dormant, bud_spacing, ..self }
+    }
 }

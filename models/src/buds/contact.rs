@@ -20,10 +20,9 @@ use phytomer_sim::site::stems::Beside;
 use phytomer_sim::site::way::Step;
 
 impl<'a> Axis<'a> {
-    /// The axis on a site whose solids and stems its shoots meet.
-    pub fn among(mut self, site: Option<&'a Site>) -> Self {
+    /// Lets its shoots meet the solids and stems of a site.
+    pub fn look_around(&mut self, site: Option<&'a Site>) {
         self.met = site.filter(|site| Around::meets(site));
-        self
     }
 
     /// Asks at a clock step whether the bud meets something.

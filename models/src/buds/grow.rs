@@ -21,8 +21,8 @@ use phytomer_sim::plant::{ApexFate, Event, EventKind, NodeId, Plant};
 use phytomer_sim::random::Purpose;
 use phytomer_sim::site::Site;
 
-/// The fewest nodes that an axis plans: one that grows on by a tick or two, and can make no more of them, makes each as
-/// it comes.
+/// The fewest nodes that a living axis plans: one that grows on by a tick or two, and can make no more of them, makes
+/// each as it comes. Axes that begin are many.
 const FEWEST: u32 = 8;
 
 /// One axis while it grows.
@@ -118,27 +118,50 @@ impl<'a> Axis<'a> {
         laws.trends.draw_ranks(&self.words.head, at, &mut self.words.trends);
     }
 
-    /// Grows the axis to `age`. Returns the bud at that age, or `None` where the apex has come to its end. Linear in
-    /// the ticks and in the components made.
-    pub fn grow(mut self, age: Tick) -> Result<Option<ApicalBud>, Full> {
+    /// Grows the axis to `age`. Its bud joins the living ones, unless the apex has come to its end. Linear in the ticks
+    /// and in the components made. Nodes that the axis has planned may be left to be made later, with those of the axes
+    /// that grow next.
+    pub fn grow(&mut self, age: Tick) -> Result<(), Full> {
         let last = age.min(self.whole_death.saturating_sub(1));
+        let fewest = if self.words.many_begin { 1 } else { FEWEST };
         let most_nodes = last.saturating_sub(self.bud.age).saturating_mul(self.laws.node.most_nodes);
-        self.plans = most_nodes >= FEWEST && self.makes_columns();
+        self.plans = most_nodes >= fewest && self.makes_columns();
+        if most_nodes > 0 && !(self.plans && self.joins_plan()) {
+            self.make_planned()?;
+        }
+        let in_all = self.speed.steps_by(last.saturating_sub(self.birth));
+        if !self.plans && most_nodes > 0 && in_all > self.bud.cycle {
+            self.read_both();
+        }
+        let mut at = self.at(0);
         for tick in self.bud.age + 1..=last {
             self.set_tick(tick);
-            for _ in self.bud.cycle..self.speed.steps_by(self.dimension) {
-                if !self.step()? {
-                    return Ok(None);
+            (at.age, at.dimension) = (tick, self.dimension);
+            for _ in at.cycle..self.speed.steps_by(at.dimension) {
+                if !self.step(&mut at, in_all)? {
+                    return Ok(());
                 }
             }
         }
-        self.make_planned()?;
         if age >= self.whole_death {
+            self.make_planned()?;
             self.die_whole();
-            return Ok(None);
+            return Ok(());
         }
         self.bud.age = age;
-        Ok(Some(self.bud))
+        let Words { plan, living, .. } = &mut *self.words;
+        if let Some(shoot) = plan.shoots.last_mut().filter(|shoot| shoot.bud.axis == self.bud.axis) {
+            shoot.living = Some(living.len());
+        }
+        living.push(self.bud);
+        Ok(())
+    }
+
+    /// Makes the blocks of words in which the next step and the next node stand.
+    #[inline]
+    fn read_both(&mut self) {
+        let key = self.plant.axes.key[self.bud.axis.index()];
+        self.words.read_both(self.laws, &self.plant.random, key, (self.bud.cycle, self.bud.rank));
     }
 
     /// Puts the clock of the axis to `tick`.
@@ -169,30 +192,31 @@ impl<'a> Axis<'a> {
         At { age, dimension, cycle, rank, bud_birth, bud_dimension, unit, height, contact, shade, state }
     }
 
-    /// One clock step of the apical bud; false where it ended.
-    fn step(&mut self) -> Result<bool, Full> {
-        self.bud.cycle += 1;
-        let at = self.at(0);
-        self.read_step();
-        self.feel();
-        let at = At { contact: self.contact, ..at };
-        let laws = &self.laws.step;
-        if laws.death.happens(&self.words.step, 0, at) {
-            // A bud that would have lived in full light dies of shade.
-            let in_light = At { shade: 0, ..at };
-            if at.shade > 0 && !laws.death.happens(&self.words.step, 0, in_light) {
-                return self.end(ApexFate::Shaded, EventKind::Shaded, ApexEnd::Death);
-            }
-            return self.end(ApexFate::Died, EventKind::Died, ApexEnd::Death);
+    /// One clock step of the apical bud, of `in_all` that it may go through by the age to which it grows; false where
+    /// it ended. `at` is the point of its laws at the step before, and becomes that of this step.
+    // The point is handed on: read again from the bud at each step, it would wait for what was just written there.
+    #[inline(always)]
+    fn step(&mut self, at: &mut At, in_all: u32) -> Result<bool, Full> {
+        at.cycle += 1;
+        self.bud.cycle = at.cycle;
+        self.read_step(at.cycle - 1, in_all);
+        if self.met.is_some() {
+            self.feel();
+            at.contact = self.contact;
         }
-        if self.plant.exposure.is_some() && self.is_attacked(at) {
+        let laws = &self.laws.step;
+        if laws.death.happens(self.words.step(), 0, *at) {
+            return self.die(*at);
+        }
+        if self.plant.exposure.is_some() && self.is_attacked(*at) {
             return self.end(ApexFate::Attacked, EventKind::Attacked, ApexEnd::Death);
         }
-        if laws.pause.happens(&self.words.step, 0, at) {
+        if laws.pause.happens(self.words.step(), 0, *at) {
             self.note(EventKind::Paused, 1);
             return Ok(true);
         }
-        if laws.flower.happens(&self.words.step, 0, at) {
+        if laws.flower.happens(self.words.step(), 0, *at) {
+            self.make_planned()?;
             let ended = self.end(ApexFate::Flowered, EventKind::Flowered, ApexEnd::Flower)?;
             self.terminal_flower();
             return if self.plant.is_overgrown() { Err(Full) } else { Ok(ended) };
@@ -200,10 +224,8 @@ impl<'a> Axis<'a> {
         if let Some(lives) = self.answer_contact()? {
             return Ok(lives);
         }
-        for unit in 0..laws.per_step.draw(&self.words.step, 0, at) {
-            let ApicalBud { birth: bud_birth, units, .. } = self.bud;
-            let at = At { bud_birth, bud_dimension: bud_birth.saturating_sub(self.birth), unit: units, ..at };
-            let grown = self.growth_unit(unit, at)?;
+        for unit in 0..laws.per_step.draw(self.words.step(), 0, *at) {
+            let grown = self.growth_unit(unit, *at)?;
             if self.ends_stuck()? {
                 return Ok(false);
             }
@@ -211,41 +233,58 @@ impl<'a> Axis<'a> {
                 break;
             }
             // The growth unit has a new bud at its tip.
-            self.bud.units += 1;
-            self.bud.birth = self.tick;
-            if self.bud.units >= self.last_unit {
+            (at.unit, at.bud_birth, at.bud_dimension) = (at.unit + 1, at.age, at.age.saturating_sub(self.birth));
+            (self.bud.units, self.bud.birth) = (at.unit, at.bud_birth);
+            if at.unit >= self.last_unit {
                 return self.end(ApexFate::Completed, EventKind::Completed, ApexEnd::Completed);
             }
             if self.is_stuck() {
                 break;
             }
         }
-        self.pass_state()?;
+        if !laws.transitions.is_empty() {
+            self.pass_state(*at)?;
+            at.state = self.bud.state;
+        }
         Ok(true)
     }
 
-    fn read_step(&mut self) {
+    #[inline]
+    fn read_step(&mut self, step: u32, in_all: u32) {
         let key = self.plant.axes.key[self.bud.axis.index()];
-        self.words.read_step(self.laws, &self.plant.random, key, self.bud.cycle - 1);
+        self.words.read_step(self.laws, &self.plant.random, key, step, in_all.saturating_sub(step));
+    }
+
+    /// The death of a bud by its mortality; one that would have lived in full light dies of shade.
+    fn die(&mut self, at: At) -> Result<bool, Full> {
+        let in_light = At { shade: 0, ..at };
+        if at.shade > 0 && !self.laws.step.death.happens(self.words.step(), 0, in_light) {
+            return self.end(ApexFate::Shaded, EventKind::Shaded, ApexEnd::Death);
+        }
+        self.end(ApexFate::Died, EventKind::Died, ApexEnd::Death)
     }
 
     /// A growth unit: its type, the number of its nodes, then node by node as far as there is a way. Whether it was
     /// made: a unit whose first node has no way is a pause.
+    #[inline(always)]
     fn growth_unit(&mut self, unit: u32, at: At) -> Result<bool, Full> {
         let laws = &self.laws.step;
-        let short = laws.short.happens(&self.words.step, unit, at);
+        let short = laws.short.happens(self.words.step(), unit, at);
         let preformed = match short {
-            true => laws.short_nodes.draw(&self.words.step, unit, at),
-            false => laws.long_nodes.draw(&self.words.step, unit, at),
+            true => laws.short_nodes.draw(self.words.step(), unit, at),
+            false => laws.long_nodes.draw(self.words.step(), unit, at),
         };
-        let neoformed = if short { 0 } else { laws.neoformed.draw(&self.words.step, unit, at) };
+        let neoformed = if short { 0 } else { laws.neoformed.draw(self.words.step(), unit, at) };
         let [preformed, neoformed] = match self.plant.exposure.is_some() {
             true => self.weakened(unit, [preformed, neoformed]),
             false => [preformed, neoformed],
         };
         let nodes = preformed + neoformed;
         if laws.zone_ranks.are_drawn() {
-            laws.zone_ranks.draw(&self.words.step, unit, at, &mut self.words.zones);
+            let Words { zones, .. } = &mut *self.words;
+            let mut drawn = std::mem::take(zones);
+            laws.zone_ranks.draw(self.words.step(), unit, at, &mut drawn);
+            self.words.zones = drawn;
         }
         if self.plans {
             self.plan_unit(at, short, [preformed, neoformed])?;
@@ -274,16 +313,11 @@ impl<'a> Axis<'a> {
     }
 
     /// Makes at most one passage between states. Each passage has one word, in the order in which they are stated.
-    #[inline]
-    fn pass_state(&mut self) -> Result<(), Full> {
-        if self.laws.step.transitions.is_empty() {
-            return Ok(());
-        }
-        let at = self.at(0);
+    fn pass_state(&mut self, at: At) -> Result<(), Full> {
         let (state, leads) = (self.bud.state, self.leads);
         let laws = self.laws;
         let happens =
-            |passage: &&Passage| passage.concerns(state, leads) && passage.chance.happens(&self.words.step, 0, at);
+            |passage: &&Passage| passage.concerns(state, leads) && passage.chance.happens(self.words.step(), 0, at);
         let Some(passage) = laws.step.transitions.iter().find(happens) else {
             return Ok(());
         };
@@ -303,12 +337,14 @@ impl<'a> Axis<'a> {
             self.plant.note_in_state(self.bud.state, self.tick, self.bud.axis, event, count);
         } else if self.plant.events.is_some() {
             let (tick, axis, kind, state) = (self.tick, self.bud.axis, event, self.bud.state);
-            plan.events.push((plan.nodes(), Event { tick, axis, kind, count, state }));
+            plan.events.push((plan.nodes, Event { tick, axis, kind, count, state }));
         }
     }
 
     pub(super) fn end(&mut self, fate: ApexFate, event: EventKind, end: ApexEnd) -> Result<bool, Full> {
-        self.make_planned()?;
+        if self.is_followed(end) {
+            self.make_planned()?;
+        }
         self.plant.axes.end_apex(self.bud.axis, self.tick, fate);
         let count = if fate == ApexFate::Completed { self.bud.units } else { 1 };
         self.note(event, count);

@@ -2,10 +2,10 @@
 //!
 //! Nodes that are made one by one (`organ`) and nodes that are made at once (`columns`) share them.
 
-use super::compile::NodeLaws;
+use super::compile::{NodeLaws, Number, OrganLaws};
 use crate::law::At;
 use phytomer_sim::clock::{NEVER, Tick};
-use phytomer_sim::plant::{Cause, Form, Kind, NewOrgan, NodeId};
+use phytomer_sim::plant::{Cause, NewOrgan, NodeId};
 
 /// The position of a terminal flower, which is no lateral's.
 pub(super) const TERMINAL: u16 = u16::MAX;
@@ -27,46 +27,77 @@ pub(super) struct Bloom {
     fruit: Option<NewOrgan>,
 }
 
+/// What a flower or a fruit draws: its life, its length and its width.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Drawn {
+    pub life: u32,
+    pub length: f32,
+    pub width: f32,
+}
+
 /// The tick at which a flower falls if nothing eats it.
 #[inline]
 pub(super) fn flower_fall(laws: &NodeLaws, words: &[u32], site: FlowerSite, at: At) -> Tick {
-    site.birth.saturating_add(laws.flower_life.draw(words, site.nth, at).max(1))
+    after(site.birth, laws.flower_life.draw(words, site.nth, at))
+}
+
+/// The end of a life, which lasts a tick at least.
+#[inline]
+fn after(birth: Tick, life: u32) -> Tick {
+    birth.saturating_add(life.max(1))
 }
 
 impl Bloom {
     /// A flower and its fruit, with the ticks at which pests eat them. A terminal flower stands in the direction of its
-    /// axis, and its laws are evaluated at the rank of the node that bears it. A flower that is eaten sets no fruit.
+    /// axis, and its laws are evaluated at the rank of the node that bears it.
     #[inline]
     pub fn of(laws: &NodeLaws, words: &[u32], site: FlowerSite, eaten: [Tick; 2], at: At) -> Self {
-        let FlowerSite { node, nth, birth, azimuth, position } = site;
-        let fall = flower_fall(laws, words, site, at);
+        let nth = site.nth;
         let sets = laws.fruit_set.happens(words, nth, at);
-        let own = if sets { Cause::FruitSet } else { Cause::LifeLength };
-        let end = first_end((fall, own), eaten[0]);
-        let insertion = if position == TERMINAL { 0.0 } else { laws.flower.insertion.draw(words, nth, at) };
-        let organ = |kind: Kind, form: Form, birth, (death, cause), length, width| NewOrgan {
+        let insertion = if site.position == TERMINAL { 0.0 } else { laws.flower.insertion.draw(words, nth, at) };
+        let draw = |organ: &OrganLaws, life: &Number| Drawn {
+            life: life.draw(words, nth, at),
+            length: organ.length.draw(words, nth, at),
+            width: organ.width.draw(words, nth, at),
+        };
+        let fruit = || draw(&laws.fruit, &laws.fruit_life);
+        Self::drawn(laws, (site, insertion), (draw(&laws.flower, &laws.flower_life), sets), fruit, eaten)
+    }
+
+    /// A flower that was drawn, with the fruit that it `sets`, of the insertion angle of its flower. A flower that is
+    /// eaten sets no fruit.
+    #[inline]
+    pub fn drawn(
+        laws: &NodeLaws,
+        (site, insertion): (FlowerSite, f32),
+        (flower, sets): (Drawn, bool),
+        fruit: impl FnOnce() -> Drawn,
+        eaten: [Tick; 2],
+    ) -> Self {
+        let FlowerSite { node, birth, azimuth, position, .. } = site;
+        let organ = |of: &OrganLaws, birth, (death, cause), Drawn { length, width, .. }| NewOrgan {
             node,
-            kind,
+            kind: of.kind,
             position,
             birth,
             death,
             cause,
-            form,
+            form: of.form,
             length,
             width,
             area: 0.0,
             azimuth,
             insertion,
         };
-        let (length, width) = (laws.flower.length.draw(words, nth, at), laws.flower.width.draw(words, nth, at));
-        let flower = organ(laws.flower.kind, laws.flower.form, birth, end, length, width);
+        let fall = after(birth, flower.life);
+        let own = if sets { Cause::FruitSet } else { Cause::LifeLength };
+        let end = first_end((fall, own), eaten[0]);
         let fruit = (end.1 == Cause::FruitSet).then(|| {
-            let ripe = fall.saturating_add(laws.fruit_life.draw(words, nth, at).max(1));
-            let (length, width) = (laws.fruit.length.draw(words, nth, at), laws.fruit.width.draw(words, nth, at));
-            let end = first_end((ripe, Cause::LifeLength), eaten[1]);
-            organ(laws.fruit.kind, laws.fruit.form, fall, end, length, width)
+            let drawn = fruit();
+            let ripe = (after(fall, drawn.life), Cause::LifeLength);
+            organ(&laws.fruit, fall, first_end(ripe, eaten[1]), drawn)
         });
-        Self { flower, fruit }
+        Self { flower: organ(&laws.flower, birth, end, flower), fruit }
     }
 
     /// Those of its organs that appear by the last age of the run. An organ that would appear later is left out: it

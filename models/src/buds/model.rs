@@ -7,6 +7,7 @@ use super::birth::{add_axis, first_bud};
 use super::bud::{ApicalBud, LivingBuds};
 use super::compile::{BudModel, OrderLaws};
 use super::grow::{Axis, Full};
+use super::planned::make_last;
 use super::record::Words;
 use crate::law::At;
 use phytomer_sim::Tick;
@@ -68,7 +69,11 @@ impl BudModel {
     /// # Errors
     /// [`Overgrown`] where the plant comes to its limit.
     pub fn grow_axis(&self, plant: &mut Plant, bud: ApicalBud, age: Tick) -> Result<Option<ApicalBud>, Overgrown> {
-        self.grow_with((plant, None), bud, age, &mut Words::default())
+        Words::lend(false, |words| {
+            self.grow_with((plant, None), bud, age, words)?;
+            self.make_last(plant, words)?;
+            Ok(words.living.pop())
+        })
     }
 
     /// The bud from which axis `axis` of `plant` starts.
@@ -87,15 +92,25 @@ impl BudModel {
         classes.map(by_own_age).collect()
     }
 
+    /// Grows one axis from `bud` to `age`. Its bud joins the living ones among `words`, whose last nodes may be left to
+    /// be made by [`Self::make_last`].
     fn grow_with(
         &self,
         (plant, site): (&mut Plant, Option<&Site>),
         bud: ApicalBud,
         age: Tick,
         words: &mut Words,
-    ) -> Result<Option<ApicalBud>, Overgrown> {
-        let limit = Overgrown::of(plant);
-        Axis::new(self, plant, words, bud).among(site).grow(age).map_err(|Full| limit)
+    ) -> Result<(), Overgrown> {
+        let mut axis = Axis::new(self, plant, words, bud);
+        if site.is_some() {
+            axis.look_around(site);
+        }
+        axis.grow(age).map_err(|Full| Overgrown::of(plant))
+    }
+
+    /// Makes the nodes that axes have left to be made.
+    fn make_last(&self, plant: &mut Plant, words: &mut Words) -> Result<(), Overgrown> {
+        make_last(self, plant, words).map_err(|Full| Overgrown::of(plant))
     }
 
     /// Grows every living bud first, then the axes that arise meanwhile, each through all its ticks: parents come
@@ -107,13 +122,19 @@ impl BudModel {
         living: &mut Vec<ApicalBud>,
         age: Tick,
     ) -> Result<(), Overgrown> {
-        let mut words = Words::default();
         let first_new = plant.axes.len();
         if !plant.cuts.all().is_empty() {
             // Leaves out the buds of axes that were cut off since the last tick.
             living.retain(|bud| plant.axes.apex_fate[bud.axis.index()] == ApexFate::Alive);
         }
-        keep(living, |bud| self.grow_with((plant, site), bud, age, &mut words))?;
+        Words::lend(false, |words| {
+            for bud in living.drain(..) {
+                self.grow_with((plant, site), bud, age, words)?;
+            }
+            self.make_last(plant, words)?;
+            living.append(&mut words.living);
+            Ok(())
+        })?;
         let mut next = first_new;
         while next < plant.axes.len() {
             let waiting = next..plant.axes.len();
@@ -179,13 +200,14 @@ impl BudModel {
     }
 
     fn grow_in_turn(&self, plant: &mut Plant, waiting: Range<usize>, age: Tick) -> Result<Vec<ApicalBud>, Overgrown> {
-        let mut words = Words::default();
-        let mut living = Vec::new();
-        for axis in waiting {
-            let bud = first_bud(self, plant, AxisId(axis as u32));
-            living.extend(self.grow_with((plant, None), bud, age, &mut words)?);
-        }
-        Ok(living)
+        Words::lend(true, |words| {
+            for axis in waiting {
+                let bud = first_bud(self, plant, AxisId(axis as u32));
+                self.grow_with((plant, None), bud, age, words)?;
+            }
+            self.make_last(plant, words)?;
+            Ok(words.living.drain(..).collect())
+        })
     }
 }
 

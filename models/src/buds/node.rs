@@ -149,14 +149,25 @@ impl Axis<'_> {
         }
     }
 
+    /// Whether relays follow this end of an apex, traumatic reiteration, forks or the time for which it persists.
+    fn followers(&self, end: ApexEnd) -> [bool; 3] {
+        let laws = &self.laws.end;
+        let released = end == ApexEnd::Death && !laws.traumatic.chance.is_never();
+        let completed = end == ApexEnd::Completed && (laws.fork.is_some() || laws.persists.is_some());
+        [laws.is_relayed(end), released, completed]
+    }
+
+    /// Whether anything follows this end of an apex.
+    pub(super) fn is_followed(&self, end: ApexEnd) -> bool {
+        self.followers(end).contains(&true)
+    }
+
     /// Adds the axes that follow the end of an apex: relays from the last node or below, and traumatic reiteration
     /// where it died.
     pub(super) fn follow_end(&mut self, end: ApexEnd) -> Result<(), Full> {
         let laws = &self.laws.end;
-        let relayed = laws.is_relayed(end);
-        let released = end == ApexEnd::Death && !laws.traumatic.chance.is_never();
-        let completed = end == ApexEnd::Completed && (laws.fork.is_some() || laws.persists.is_some());
-        let Some(node) = self.own_last_node().filter(|_| relayed || released || completed) else {
+        let [relayed, released, _] = self.followers(end);
+        let Some(node) = self.own_last_node().filter(|_| self.is_followed(end)) else {
             return Ok(());
         };
         self.read_end(0);

@@ -1,33 +1,39 @@
-//! An axis plans the nodes of its growth units, and makes them in blocks.
+//! Axes plan the nodes of their growth units, and make them in blocks.
 //!
 //! Absent: how a block is made (`columns`), and which axes plan (`grow`).
 
 use super::around::Lie;
 use super::bud::ApicalBud;
 use super::columns::Block;
-use super::compile::Piece;
+use super::compile::{BudModel, Piece};
 use super::grow::{Axis, Full};
+use super::plan::Shoot;
 use super::record::Words;
 use crate::law::At;
-use phytomer_sim::plant::NodeId;
+use phytomer_sim::plant::{NodeId, Plant};
 
-/// The fewest nodes that are made at once: fewer are made faster one by one, as measured.
+/// The fewest nodes that are made at once: fewer of one axis are made faster one by one, as measured.
 const FEWEST: u32 = 4;
 
 impl Axis<'_> {
     /// Plans the nodes of a growth unit, and makes the block as soon as it is full.
+    #[inline]
     pub(super) fn plan_unit(&mut self, at: At, short: bool, [preformed, neoformed]: [u32; 2]) -> Result<(), Full> {
         let unit_nodes = preformed + neoformed;
         let mut first = 1;
         while first <= unit_nodes {
-            let words = &mut *self.words;
-            let (plan, most) = (&mut words.plan, self.laws.node.block);
-            let before = plan.nodes();
+            let most = self.laws.node.block;
+            let before = self.words.plan.nodes;
             let more = (most - before).min(unit_nodes + 1 - first);
-            let zones = plan.zones.len() as u32;
-            plan.zones.extend_from_slice(&words.zones);
-            let (nodes, zones) = ((before, before + more), (zones, plan.zones.len() as u32));
+            self.shoot(before + more);
+            let Words { plan, zones, .. } = &mut *self.words;
+            let drawn = plan.zones.len() as u32;
+            if !zones.is_empty() {
+                plan.zones.extend_from_slice(zones);
+            }
+            let (nodes, zones) = ((before, before + more), (drawn, plan.zones.len() as u32));
             plan.pieces.push(Piece { at, unit_nodes, first, nodes, preformed, short, zones });
+            plan.nodes = before + more;
             first += more;
             if before + more == most {
                 self.make_planned()?;
@@ -36,18 +42,42 @@ impl Axis<'_> {
         Ok(())
     }
 
-    /// Makes the nodes that are planned, at once where they are not few. The plant has no room for them where it would
-    /// be overgrown with them.
+    /// Lets the planned nodes of the axis reach up to the place `end`.
+    #[inline]
+    fn shoot(&mut self, end: u32) {
+        let Words { plan, trends, .. } = &mut *self.words;
+        if let Some(shoot) = plan.shoots.last_mut().filter(|shoot| shoot.bud.axis == self.bud.axis) {
+            shoot.nodes.1 = end;
+            return;
+        }
+        let key = self.plant.axes.key[self.bud.axis.index()];
+        let before = plan.trends.len() as u32;
+        plan.trends.extend_from_slice(trends);
+        let trends = (before, plan.trends.len() as u32);
+        plan.shoots.push(Shoot { bud: self.bud, key, nodes: (plan.nodes, end), trends, living: None });
+    }
+
+    /// Whether its nodes can be planned beside those that other axes have planned: laws of one order, and of buds in
+    /// full light or of buds in shade, are looked up together.
+    pub(super) fn joins_plan(&self) -> bool {
+        let plan = &self.words.plan;
+        let (Some(shoot), Some(piece)) = (plan.shoots.last(), plan.pieces.last()) else { return true };
+        let order = self.plant.axes.order[shoot.bud.axis.index()];
+        order == self.laws.number && (piece.at.shade > 0) == (self.at(0).shade > 0)
+    }
+
+    /// Makes the nodes that are planned, those of other axes too; at once where they are not few. The plant has no room
+    /// for them where it would be overgrown with them.
     #[inline]
     pub(super) fn make_planned(&mut self) -> Result<(), Full> {
-        match self.words.plan.nodes() {
-            0 => Ok(()),
-            1..FEWEST => self.make_one_by_one(),
+        match self.words.plan.shoots.as_slice() {
+            [] => Ok(()),
+            [shoot] if shoot.nodes.1 < FEWEST && shoot.bud.axis == self.bud.axis => self.make_one_by_one(),
             _ => self.make_at_once(),
         }
     }
 
-    /// Makes the nodes that are planned, one by one.
+    /// Makes the nodes that are planned, all of this axis, one by one.
     fn make_one_by_one(&mut self) -> Result<(), Full> {
         let mut plan = std::mem::take(&mut self.words.plan);
         let (tick, bud) = (self.tick, self.bud);
@@ -83,25 +113,53 @@ impl Axis<'_> {
 
     /// Makes the nodes that are planned, all at once.
     fn make_at_once(&mut self) -> Result<(), Full> {
-        let Self { model, laws, plant, words, bud, .. } = self;
-        let key = plant.axes.key[bud.axis.index()];
-        let random = plant.random.clone();
-        words.read_nodes(laws, &random, key, bud.rank);
-        let Words { plan, columns, trends, nodes, .. } = &mut **words;
-        let block = Block {
-            model,
-            laws,
-            random: &random,
-            pieces: &plan.pieces,
-            zones: &plan.zones,
-            trends,
-            words: nodes,
-            key,
-            bud: *bud,
-            first: NodeId(plant.nodes.len() as u32),
-        };
-        *bud = columns.make(&block, plant, plan).ok_or(Full)?;
+        make_at_once(self.model, self.plant, self.words)?;
+        let Words { plan, columns, .. } = &mut *self.words;
+        if let (Some(shoot), Some(made)) = (plan.shoots.last(), columns.buds.last())
+            && shoot.bud.axis == self.bud.axis
+        {
+            self.bud = self.bud.behind(made);
+        }
         plan.clear();
         Ok(())
     }
+}
+
+/// Makes the nodes that axes which have grown to their age have planned, if any.
+pub(super) fn make_last(model: &BudModel, plant: &mut Plant, words: &mut Words) -> Result<(), Full> {
+    if words.plan.is_empty() {
+        return Ok(());
+    }
+    make_at_once(model, plant, words)?;
+    words.plan.clear();
+    Ok(())
+}
+
+/// Makes the nodes that are planned, all at once, and tells the living buds among them what they bear.
+fn make_at_once(model: &BudModel, plant: &mut Plant, words: &mut Words) -> Result<(), Full> {
+    let Some(shoot) = words.plan.shoots.first() else { return Ok(()) };
+    let laws = model.laws(plant.axes.order[shoot.bud.axis.index()]);
+    let random = plant.random.clone();
+    words.read_nodes(laws, &random);
+    let Words { plan, columns, nodes, living, .. } = words;
+    let block = Block {
+        model,
+        laws,
+        random: &random,
+        pieces: &plan.pieces,
+        shoots: &plan.shoots,
+        zones: &plan.zones,
+        trends: &plan.trends,
+        words: nodes,
+        first: NodeId(plant.nodes.len() as u32),
+    };
+    if !columns.make(&block, plant, &plan.events) {
+        return Err(Full);
+    }
+    for (shoot, made) in plan.shoots.iter().zip(&columns.buds) {
+        if let Some(bud) = shoot.living.and_then(|place| living.get_mut(place)) {
+            *bud = bud.behind(made);
+        }
+    }
+    Ok(())
 }

@@ -1,16 +1,22 @@
-//! The words of one axis: its streams, opened when they are first read, and the record last read from each.
+//! The words of one axis: its streams, opened when they are first read, and the records last read from each.
 //!
 //! The words of responses and pests come from streams of their own, in records whose places are fixed: a record of the
 //! species' own words is the same whether something responds or not. Absent: which slot is for what (`compile::words`).
 
+use super::bud::ApicalBud;
 use super::columns::Columns;
 use super::compile::{NODE_OF_RESPONSES, OrderLaws, Ranks, STEP_OF_RESPONSES, Spare};
 use super::plan::Plan;
 use phytomer_sim::plant::LineageKey;
 use phytomer_sim::random::{PlantRandom, Purpose, Stream};
+use std::cell::Cell;
 
 /// No node has as many things of one kind.
 const MOST_ON_NODE: usize = 64;
+
+/// The words that an axis which goes through many steps reads at once, the first time and later: blocks of a stream are
+/// made faster many at once, but an axis may die soon.
+const WORDS_AT_ONCE: [usize; 2] = [64, 192];
 
 /// The words of one axis.
 #[derive(Debug, Default)]
@@ -19,9 +25,9 @@ pub(super) struct Words {
     node: Option<Stream>,
     step_response: Option<Stream>,
     node_response: Option<Stream>,
-    /// The head record of the bud stream; then the records of a step, of a node and of the end.
+    /// The head record of the bud stream; then the records of steps, of a node and of the end.
     pub head: Vec<u32>,
-    pub step: Vec<u32>,
+    steps: Steps,
     pub on_node: Vec<u32>,
     pub end: Vec<u32>,
     /// The ranks from which the axis's trends hold, where it draws them, with their places.
@@ -30,21 +36,42 @@ pub(super) struct Words {
     pub zones: Vec<Ranks>,
     /// Whether the bud lacks light.
     pub shaded: bool,
-    /// The nodes that the axis has decided on and has yet to make.
+    /// The nodes that axes have decided on and have yet to make.
     pub plan: Plan,
+    /// Whether axes use them that begin, one after another.
+    pub many_begin: bool,
+    /// The buds that have grown to their age and live.
+    pub living: Vec<ApicalBud>,
     /// Their records.
     pub nodes: Vec<u32>,
     /// Room for making them.
     pub columns: Columns,
 }
 
+thread_local! {
+    /// The words of the axes that a thread grows, kept for their memory: a population has many plants, and a plant that
+    /// grows by the clock many ticks.
+    static WORDS: Cell<Option<Box<Words>>> = const { Cell::new(None) };
+}
+
 impl Words {
+    /// Lends the words of this thread, with nothing planned; to axes that begin, one after another, where `many_begin`.
+    pub fn lend<T>(many_begin: bool, work: impl FnOnce(&mut Self) -> T) -> T {
+        let mut words = WORDS.take().unwrap_or_default();
+        words.many_begin = many_begin;
+        words.plan.clear();
+        words.living.clear();
+        let done = work(&mut words);
+        WORDS.set(Some(words));
+        done
+    }
+
     /// Makes these the words of an axis of an order.
     pub fn of(&mut self, laws: &OrderLaws) {
         (self.bud, self.node, self.step_response, self.node_response) = (None, None, None, None);
         // A quantity without words reads word 0 and ignores it.
         self.head.resize(laws.head.width.max(1), 0);
-        self.step.resize(laws.step.spare.words(), 0);
+        self.steps.of(laws);
         self.on_node.resize(laws.node.spare.words(), 0);
         self.end.resize(laws.end.width.max(1), 0);
         self.trends.clear();
@@ -57,17 +84,61 @@ impl Words {
         self.bud = Some(stream);
     }
 
-    /// Reads the record of a clock step, from 0.
-    pub fn read_step(&mut self, laws: &OrderLaws, random: &PlantRandom, key: LineageKey, step: u32) {
+    /// The record of the clock step that was read last, and what stands behind it.
+    #[inline(always)]
+    pub fn step(&self) -> &[u32] {
+        &self.steps.words[self.steps.place..]
+    }
+
+    /// Reads the record of a clock step, from 0, of an axis that may go through `ahead` steps from this one on.
+    #[inline]
+    pub fn read_step(&mut self, laws: &OrderLaws, random: &PlantRandom, key: LineageKey, step: u32, ahead: u32) {
+        let width = laws.step.width;
+        if width > 0 && !self.steps.go_to(step, width) {
+            self.read_steps(laws, random, key, step, ahead);
+        }
+        if !laws.step.spare.places().is_empty() && self.responds(laws) {
+            self.read_step_response(laws, random, key, step);
+        }
+    }
+
+    /// Makes the blocks in which the records of a step and of a node begin, each from 0, side by side.
+    #[inline]
+    pub fn read_both(&mut self, laws: &OrderLaws, random: &PlantRandom, key: LineageKey, (step, node): (u32, u32)) {
+        let (of_step, of_node) = (laws.step.width, laws.node.width);
+        if of_step > 0 && of_node > 0 {
+            let bud = self.bud.get_or_insert_with(|| random.stream(key, Purpose::Bud));
+            bud.seek(laws.head.width as u64 + start(step, of_step as u32));
+            let nodes = self.node.insert(random.stream(key, Purpose::Node));
+            nodes.seek(start(node, of_node as u32));
+            Stream::reach_both(bud, nodes);
+        }
+    }
+
+    /// Whether the words of responses are read.
+    fn responds(&self, laws: &OrderLaws) -> bool {
+        self.shaded || !laws.light_alone
+    }
+
+    /// Reads the records of the steps from `step` on: of one where words of responses stand behind it, else of many.
+    #[inline(never)]
+    fn read_steps(&mut self, laws: &OrderLaws, random: &PlantRandom, key: LineageKey, step: u32, ahead: u32) {
+        let width = laws.step.width;
+        let alone = !laws.step.spare.places().is_empty() && self.responds(laws);
+        let most = WORDS_AT_ONCE[usize::from(self.steps.number > 0)] / width;
+        let number = if alone { 1 } else { (ahead as usize).min(most).max(1) };
+        let into = self.steps.begin_at(step, number, laws.step.spare.words() + (number - 1) * width);
+        let stream = self.bud.get_or_insert_with(|| random.stream(key, Purpose::Bud));
+        stream.seek(laws.head.width as u64 + start(step, width as u32));
+        stream.read(&mut into[..number * width]);
+    }
+
+    #[inline(never)]
+    fn read_step_response(&mut self, laws: &OrderLaws, random: &PlantRandom, key: LineageKey, step: u32) {
         let of = &laws.step;
-        if of.width > 0 {
-            let stream = self.bud.get_or_insert_with(|| random.stream(key, Purpose::Bud));
-            read(stream, laws.head.width, step, of.width, &mut self.step);
-        }
-        if !of.spare.places().is_empty() && (self.shaded || !laws.light_alone) {
-            let stream = self.step_response.get_or_insert_with(|| random.stream(key, Purpose::StepResponse));
-            read_spare(stream, start(step, STEP_OF_RESPONSES), &of.spare, &mut self.step[of.width..]);
-        }
+        let stream = self.step_response.get_or_insert_with(|| random.stream(key, Purpose::StepResponse));
+        let words = &mut self.steps.words[self.steps.place + of.width..];
+        read_spare(stream, start(step, STEP_OF_RESPONSES), &of.spare, words);
     }
 
     /// Reads the record of a node, from 0.
@@ -85,16 +156,19 @@ impl Words {
     }
 
     /// Reads the records of the nodes that are planned, with as many words behind them as there can be things of one
-    /// kind on a node; `made` nodes of the axis are made.
-    pub fn read_nodes(&mut self, laws: &OrderLaws, random: &PlantRandom, key: LineageKey, made: u32) {
+    /// kind on a node.
+    pub fn read_nodes(&mut self, laws: &OrderLaws, random: &PlantRandom) {
         let into = &mut self.nodes;
-        let (width, nodes) = (laws.node.width, self.plan.nodes() as usize);
-        let words = nodes * width;
-        into.resize(into.len().max(words + MOST_ON_NODE), 0);
-        if width > 0 {
-            let stream = self.node.get_or_insert_with(|| random.stream(key, Purpose::Node));
-            stream.seek(start(made, width as u32));
-            stream.read(&mut into[..words]);
+        let width = laws.node.width;
+        into.resize(into.len().max(self.plan.nodes as usize * width + MOST_ON_NODE), 0);
+        if width == 0 {
+            return;
+        }
+        for shoot in &self.plan.shoots {
+            let words = shoot.nodes.0 as usize * width..shoot.nodes.1 as usize * width;
+            let mut stream = random.stream(shoot.key, Purpose::Node);
+            stream.seek(start(shoot.bud.rank, width as u32));
+            stream.read(&mut into[words]);
         }
     }
 
@@ -110,6 +184,48 @@ impl Words {
         let stream = self.node_response.get_or_insert_with(|| random.stream(key, Purpose::NodeResponse));
         stream.seek(start(node, NODE_OF_RESPONSES) + u64::from(place));
         stream.word()
+    }
+}
+
+/// Records of clock steps that follow one another.
+#[derive(Debug, Default)]
+struct Steps {
+    words: Vec<u32>,
+    /// The first step, from 0, and how many they are.
+    first: u32,
+    number: u32,
+    /// The place of the record that is asked for.
+    place: usize,
+}
+
+impl Steps {
+    /// Forgets the records of the axis before. A quantity without words reads word 0 and ignores it.
+    fn of(&mut self, laws: &OrderLaws) {
+        (self.first, self.number, self.place) = (0, 0, 0);
+        let least = laws.step.spare.words();
+        if self.words.len() < least {
+            self.words.resize(least, 0);
+        }
+    }
+
+    /// Goes to the record of a step. Whether it is here.
+    #[inline(always)]
+    fn go_to(&mut self, step: u32, width: usize) -> bool {
+        let nth = step.wrapping_sub(self.first);
+        let is_here = nth < self.number;
+        if is_here {
+            self.place = nth as usize * width;
+        }
+        is_here
+    }
+
+    /// Room for `number` records from the step `first` on, in `words` words.
+    fn begin_at(&mut self, first: u32, number: usize, words: usize) -> &mut [u32] {
+        (self.first, self.number, self.place) = (first, number as u32, 0);
+        if self.words.len() < words {
+            self.words.resize(words, 0);
+        }
+        &mut self.words
     }
 }
 

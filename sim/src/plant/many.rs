@@ -28,15 +28,24 @@ pub struct OfUnit {
     pub cycle: u32,
 }
 
-/// Nodes that follow one another on one axis. Each slice has an entry a node.
-#[derive(Debug, Clone, Copy)]
-pub struct NewNodes<'a> {
+/// Nodes that follow one another on one axis.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct OfAxis {
+    /// How many they are, at least one.
+    pub nodes: u32,
     /// The axis.
     pub axis: AxisId,
     /// The node at the base of the first; [`NodeId::NONE`] for the first internode of the trunk.
     pub parent: NodeId,
     /// The rank of the first along the axis, from 1.
     pub rank: u32,
+}
+
+/// Nodes that are added at the tips of axes, one axis after another. Each slice but the first two has an entry a node.
+#[derive(Debug, Clone, Copy)]
+pub struct NewNodes<'a> {
+    /// The axes that bear them, in their order. Their nodes are as many as each slice has entries.
+    pub axes: &'a [OfAxis],
     /// The growth units that they belong to, in their order. Their nodes are as many as each slice has entries.
     pub units: &'a [OfUnit],
     /// Component numbers.
@@ -64,11 +73,14 @@ impl Plant {
         })
     }
 
-    /// Adds nodes at the tip of their axis. Linear in the nodes.
+    /// Adds nodes at the tips of their axes. Linear in the nodes.
     pub fn add_nodes(&mut self, new: &NewNodes<'_>) {
-        let first = self.nodes.len() as u32;
+        let mut end = self.nodes.len() as u32;
         self.nodes.extend(new);
-        self.axes.grown(new.axis, NodeId(first + new.component.len() as u32 - 1));
+        for of in new.axes {
+            end += of.nodes;
+            self.axes.grown(of.axis, NodeId(end - 1));
+        }
     }
 
     /// Adds organs, each with its component number. Linear in the organs.
@@ -86,15 +98,18 @@ impl Plant {
 
 impl Nodes {
     fn extend(&mut self, new: &NewNodes<'_>) {
-        let (first, count) = (self.len() as u32, new.component.len());
-        if self.axis.last() != Some(&new.axis) {
-            self.runs.push(NodeId(first));
+        let (mut first, count) = (self.len() as u32, new.component.len());
+        for of in new.axes {
+            if self.axis.last() != Some(&of.axis) {
+                self.runs.push(NodeId(first));
+            }
+            self.parent.push(of.parent);
+            self.parent.extend((first..first + of.nodes - 1).map(NodeId));
+            self.axis.extend(repeat_n(of.axis, of.nodes as usize));
+            self.rank.extend(of.rank..of.rank + of.nodes);
+            first += of.nodes;
         }
-        self.parent.push(new.parent);
-        self.parent.extend((first..first + count as u32 - 1).map(NodeId));
-        self.axis.extend(repeat_n(new.axis, count));
         self.component.extend_from_slice(new.component);
-        self.rank.extend(new.rank..new.rank + count as u32);
         self.axillary_buds.extend(new.axillary_buds.iter().map(|&buds| buds_told(buds)));
         self.trend.extend_from_slice(new.trend);
         self.length.extend_from_slice(new.length);

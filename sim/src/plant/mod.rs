@@ -61,7 +61,7 @@ pub(crate) use lasting::Lasting;
 pub use ledger::Departed;
 pub use length::Rewritten;
 pub use look::{InternodeLook, Looks, OrganLook, OrganLooks, PaintNumber, Shape};
-pub use many::{NewNodes, OfUnit};
+pub use many::{NewNodes, OfAxis, OfUnit};
 pub use node::{BUDS_NOT_TOLD, NOT_TOLD, NewNode, Nodes};
 pub use organ::{NewOrgan, Organs};
 pub use outline::StatedOrgans;

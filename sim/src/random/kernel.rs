@@ -57,6 +57,25 @@ impl Kernel {
         all
     }
 
+    /// Makes a block each of two streams of one plant, where that takes as long as one.
+    #[inline]
+    #[allow(unsafe_code, reason = "calls of functions whose instructions not every machine has")]
+    pub fn fill_two(self, of: [(&Name, u64); 2], blocks: [&mut Block; 2]) {
+        debug_assert!(of[0].0.key == of[1].0.key);
+        // SAFETY: as in `fill`.
+        #[cfg(target_arch = "x86_64")]
+        unsafe {
+            match self.0 {
+                Code::Avx512 => return avx512::two(of, blocks),
+                Code::Avx2 => return avx2::two(of, blocks),
+                Code::Scalar | Code::Sse2 => {}
+            }
+        }
+        for ((name, counter), block) in of.into_iter().zip(blocks) {
+            self.fill(name, counter, std::slice::from_mut(block));
+        }
+    }
+
     /// Makes the blocks of a stream from block `counter` on, as many as `blocks` holds.
     #[inline]
     #[allow(unsafe_code, reason = "calls of functions whose instructions not every machine has")]
@@ -71,6 +90,7 @@ impl Kernel {
         #[cfg(target_arch = "x86_64")]
         unsafe {
             match (self.0, blocks) {
+                (Code::Avx512, [one]) => avx512::one(name, counter, one),
                 (_, [one]) => sse2::one(name, counter, one),
                 (Code::Avx512, blocks) => avx512::fill(name, counter, blocks),
                 (Code::Avx2, blocks) => avx2::fill(name, counter, blocks),

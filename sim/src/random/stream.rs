@@ -42,6 +42,23 @@ impl Stream {
         word
     }
 
+    /// Makes the blocks in which the next words of two streams of one plant stand. Most machines make both in the time
+    /// of one: whoever needs words of both reads them afterwards.
+    #[inline]
+    pub fn reach_both(one: &mut Self, other: &mut Self) {
+        Self::reach_both_by(Kernel::fastest(), one, other);
+    }
+
+    /// As [`Stream::reach_both`], with the blocks that this kernel makes.
+    pub(super) fn reach_both_by(kernel: Kernel, one: &mut Self, other: &mut Self) {
+        let blocks = [&*one, &*other].map(|stream| stream.position / WORDS as u64);
+        if blocks[0] != one.block && blocks[1] != other.block {
+            let of = [(&one.name, blocks[0]), (&other.name, blocks[1])];
+            kernel.fill_two(of, [&mut one.words, &mut other.words]);
+            (one.block, other.block) = (blocks[0], blocks[1]);
+        }
+    }
+
     /// The next word as a number in (0, 1).
     #[inline]
     pub fn share(&mut self) -> f64 {

@@ -67,6 +67,28 @@ fn each_kernel_makes_the_blocks_of_rand_chacha() {
     }
 }
 
+/// Blocks of two streams made side by side, by each kernel, at counters around the carry and far apart.
+#[test]
+fn two_streams_reached_together_have_the_words_of_each() {
+    let random = PlantRandom::new(3, 5);
+    for kernel in Kernel::all() {
+        for (from, other) in [(0, 0), (7, 1 << 40), ((1 << 36) - 1, 1 << 36), (31, 16)] {
+            let mut streams = [Purpose::Bud, Purpose::Node].map(|purpose| random.stream(LineageKey(9), purpose));
+            let [one, two] = &mut streams;
+            (one.seek(from), two.seek(other));
+            let expected = [one.clone().word(), two.clone().word()];
+            Stream::reach_both_by(kernel, one, two);
+            assert_eq!([one.clone().word(), two.clone().word()], expected, "{kernel:?} from {from} and {other}");
+            let (mut words, mut apart) = ([0; 40], [0; 40]);
+            let mut fresh = random.stream(LineageKey(9), Purpose::Node);
+            fresh.seek(other);
+            two.read(&mut words);
+            fresh.read_by(Kernel::all()[0], &mut apart);
+            assert_eq!(words, apart, "{kernel:?} read on from {other}");
+        }
+    }
+}
+
 /// Reads of each length from each place in a block, by each kernel, with what is at hand from the read before.
 #[test]
 fn reads_of_every_length_from_every_place_are_those_of_rand_chacha() {

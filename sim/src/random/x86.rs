@@ -155,7 +155,7 @@ macro_rules! two_blocks_a_register {
             let (whole, rest) = blocks.split_at_mut(blocks.len() / (2 * $groups) * (2 * $groups));
             let (pairs, _) = whole.as_chunks_mut::<2>();
             for many in pairs.as_chunks_mut::<$groups>().0 {
-                make(name, counter, many);
+                make(name, last_rows(name, counter), many);
                 counter += 2 * $groups;
             }
             match rest.len().div_ceil(2) {
@@ -169,18 +169,33 @@ macro_rules! two_blocks_a_register {
         #[target_feature(enable = $features)]
         fn aside<const GROUPS: usize>(name: &Name, counter: u64, blocks: &mut [Block]) {
             let mut made = [[[0; WORDS]; 2]; GROUPS];
-            make(name, counter, &mut made);
+            make(name, last_rows(name, counter), &mut made);
             blocks.copy_from_slice(&made.as_flattened()[..blocks.len()]);
+        }
+
+        /// One block each of two streams of one plant.
+        #[target_feature(enable = $features)]
+        pub fn two([(one, counter), (other, count)]: [(&Name, u64); 2], blocks: [&mut Block; 2]) {
+            let mut made = [[[0; WORDS]; 2]];
+            make(one, [cast([one.last_row(counter), other.last_row(count)])], &mut made);
+            let [[first, second]] = made;
+            [*blocks[0], *blocks[1]] = [first, second];
+        }
+
+        /// The last rows of the blocks of a stream from `counter` on.
+        #[inline]
+        #[target_feature(enable = $features)]
+        fn last_rows<const GROUPS: usize>(name: &Name, counter: u64) -> [__m256i; GROUPS] {
+            std::array::from_fn(|group| {
+                let first = counter.wrapping_add(2 * group as u64);
+                cast([name.last_row(first), name.last_row(first.wrapping_add(1))])
+            })
         }
 
         #[inline]
         #[target_feature(enable = $features)]
-        fn make<const GROUPS: usize>(name: &Name, counter: u64, blocks: &mut [[Block; 2]; GROUPS]) {
+        fn make<const GROUPS: usize>(name: &Name, last: [__m256i; GROUPS], blocks: &mut [[Block; 2]; GROUPS]) {
             let start: [__m256i; 3] = name.rows().map(|row| cast([row, row]));
-            let last: [__m256i; GROUPS] = std::array::from_fn(|group| {
-                let first = counter.wrapping_add(2 * group as u64);
-                cast([name.last_row(first), name.last_row(first.wrapping_add(1))])
-            });
             let ([mut a, mut b, mut c], mut d) = (start.map(|row| [row; GROUPS]), last);
             rounds!(a, b, c, d);
             for group in 0..GROUPS {
@@ -237,6 +252,15 @@ pub(super) mod avx512 {
     use std::arch::x86_64::_mm256_rol_epi32;
 
     two_blocks_a_register!("avx512f,avx512vl", 6, 1, 2, 3);
+
+    /// Block `counter` of a stream.
+    #[target_feature(enable = "avx512f,avx512vl")]
+    pub fn one(name: &Name, counter: u64, block: &mut Block) {
+        let mut made = [[[0; WORDS]; 2]];
+        make(name, last_rows(name, counter), &mut made);
+        let [[first, _]] = made;
+        *block = first;
+    }
 
     #[inline]
     #[target_feature(enable = "avx512f,avx512vl")]

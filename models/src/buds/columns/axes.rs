@@ -6,6 +6,7 @@
 use super::block::Block;
 use crate::buds::birth::shed_after;
 use crate::buds::compile::Things;
+use crate::buds::plan::Shoot;
 use crate::buds::site::{Bearing, BudSite, spacing};
 use crate::law::At;
 use phytomer_sim::plant::{Dormant, NewAxis, Plant};
@@ -38,14 +39,17 @@ impl NewAxes {
         self.rows.clear();
         self.ramify(block, buds);
         self.reiterate(block, nodes);
-        let mut piece = 0;
+        let (mut piece, mut shoot) = (0, 0);
         for &released in &self.released {
             while block.pieces[piece].nodes.1 <= released.node {
                 piece += 1;
             }
+            while block.shoots[shoot].nodes.1 <= released.node {
+                shoot += 1;
+            }
             let node = released.node as usize;
             let at = block.pieces[piece].at(node);
-            let new = self.axis(block, released, at, (first[node], spacing[node]));
+            let new = self.axis((block, &block.shoots[shoot]), released, at, (first[node], spacing[node]));
             self.rows.push(new);
         }
     }
@@ -106,11 +110,17 @@ impl NewAxes {
     }
 
     /// The axis of a bud, with what it draws at its birth.
-    fn axis(&self, block: &Block<'_>, of: Released, at: At, (first, between): (f32, f32)) -> NewAxis {
+    fn axis(
+        &self,
+        (block, shoot): (&Block<'_>, &Shoot),
+        of: Released,
+        at: At,
+        (first, between): (f32, f32),
+    ) -> NewAxis {
         let Released { node, position, reiterates, state } = of;
         let (laws, node) = (&block.laws.node, node as usize);
-        let bearing = Bearing { key: block.key, state: at.state };
-        let (id, rank) = (block.id(node), block.rank(node));
+        let bearing = Bearing { key: shoot.key, state: at.state };
+        let (id, rank) = (block.id(node), shoot.rank(node));
         let new = if reiterates {
             let place = (first + between / 2.0, spacing(self.numbers[node]));
             let site = BudSite::reiteration(id, (laws.reiteration_order, rank), position, place);

@@ -1,14 +1,14 @@
-//! A block of nodes of one axis that are made at once: what is known of them before anything is drawn.
+//! A block of nodes that are made at once, of axes of one order: what is known of them before anything is drawn.
 //!
 //! Absent: the columns themselves (`nodes`, `leaves`, `flowers`, `buds`).
 
-use crate::buds::bud::ApicalBud;
 use crate::buds::compile::{BudModel, Draws, OrderLaws, Piece, Ranks, Things};
+use crate::buds::plan::Shoot;
 use crate::law::At;
-use phytomer_sim::plant::{LineageKey, NodeId};
+use phytomer_sim::plant::NodeId;
 use phytomer_sim::random::PlantRandom;
 
-/// A block of nodes of one axis.
+/// A block of nodes.
 #[derive(Clone, Copy)]
 pub struct Block<'a> {
     pub model: &'a BudModel,
@@ -17,16 +17,14 @@ pub struct Block<'a> {
     pub random: &'a PlantRandom,
     /// The growth units of the nodes.
     pub pieces: &'a [Piece],
+    /// The axes of the nodes.
+    pub shoots: &'a [Shoot],
     /// The ranks of the zones that growth units have drawn.
     pub zones: &'a [Ranks],
-    /// The ranks from which the axis's trends hold, where it draws them.
+    /// The ranks from which the trends of axes hold, where they draw them.
     pub trends: &'a [(u32, u8)],
     /// The records of the nodes.
     pub words: &'a [u32],
-    /// The lineage key of the axis.
-    pub key: LineageKey,
-    /// The bud before it makes them.
-    pub bud: ApicalBud,
     /// The handle of the first node.
     pub first: NodeId,
 }
@@ -43,10 +41,10 @@ impl<'a> Block<'a> {
         NodeId(self.first.0 + node as u32)
     }
 
-    /// The rank along the axis of the node at a place of the block.
+    /// The ranks from which the trends of an axis hold, where it draws them.
     #[inline]
-    pub fn rank(&self, node: usize) -> u32 {
-        self.bud.rank + 1 + node as u32
+    pub fn trends_of(&self, shoot: &Shoot) -> &'a [(u32, u8)] {
+        &self.trends[shoot.trends.0 as usize..shoot.trends.1 as usize]
     }
 
     /// The record of the node at a place of the block.

@@ -1,4 +1,4 @@
-//! All nodes that an axis has decided on, made at once: a column at a time instead of node by node.
+//! All nodes that axes of one order have decided on, made at once: a column at a time instead of node by node.
 //!
 //! The words of the nodes are read in bulk; one loop a column draws lengths, angles, leaves, lives, flowers with their
 //! fruits, and buds; prefix sums give the component numbers. The plant is the same to the bit as node by node (`node`),
@@ -17,14 +17,14 @@ pub use block::Block;
 use super::birth::give_trends;
 use super::bud::ApicalBud;
 use super::compile::Things;
-use super::plan::Plan;
+use super::plan::Shoot;
 use super::site;
 use axes::NewAxes;
 use flowers::Flowers;
 use leaves::Leaves;
 use nodes::NodeColumns;
 use numbers::Numbers;
-use phytomer_sim::plant::{AxisId, Event, EventKind, NewAxis, NewNodes, Origin, Plant};
+use phytomer_sim::plant::{AxisId, Event, EventKind, NewAxis, NewNodes, OfAxis, Origin, Plant};
 
 /// Room for the columns of a block, which all axes use in turn.
 #[derive(Debug, Default)]
@@ -41,25 +41,34 @@ pub struct Columns {
     flowers: Flowers,
     axes: NewAxes,
     numbers: Numbers,
+    shoots: Vec<OfAxis>,
+    /// The bud of each axis, as its nodes leave it.
+    pub buds: Vec<ApicalBud>,
 }
 
 impl Columns {
-    /// Makes the nodes of a block. Returns the bud after them, or `None` where the plant has no room for them; it then
-    /// has none of them.
-    pub fn make(&mut self, block: &Block<'_>, plant: &mut Plant, plan: &Plan) -> Option<ApicalBud> {
-        let azimuth = self.draw(block);
-        self.write(block, plant, plan).then(|| self.bud_after(block, azimuth))
+    /// Makes the nodes of a block, between the events of their buds. Whether the plant has room for them; it has none of
+    /// them otherwise.
+    pub fn make(&mut self, block: &Block<'_>, plant: &mut Plant, events: &[(u32, Event)]) -> bool {
+        self.draw(block);
+        let has_room = self.write(block, plant, events);
+        let mut buds = std::mem::take(&mut self.buds);
+        buds.clear();
+        let shoots = block.shoots.iter().zip(&self.nodes.next_azimuth);
+        buds.extend(shoots.map(|(shoot, &azimuth)| self.bud_after(block, shoot, azimuth)));
+        self.buds = buds;
+        has_room
     }
 
-    /// Draws everything of a block. Returns the azimuth of the node after the last.
-    fn draw(&mut self, block: &Block<'_>) -> f32 {
+    /// Draws everything of a block.
+    fn draw(&mut self, block: &Block<'_>) {
         let laws = &block.laws.node;
         self.of_nodes.set_nodes(block.nodes(), laws.width);
-        let azimuth = self.nodes.draw(block, &self.of_nodes);
+        self.nodes.draw(block, &self.of_nodes);
         if laws.is_bare {
             self.bud_numbers.clear();
             self.bud_numbers.resize(block.nodes(), 0);
-            return azimuth;
+            return;
         }
         let draws = block.draws(&self.of_nodes);
         laws.leaves.draw_many(draws, &mut self.leaf_numbers);
@@ -75,11 +84,10 @@ impl Columns {
         };
         self.flowers.draw(block, &self.flower_numbers, first, between);
         self.axes.draw(block, &self.of_nodes, &self.bud_numbers, first, &self.spacing);
-        azimuth
     }
 
     /// Writes what was drawn into the columns of the plant. Whether the plant has room for it.
-    fn write(&mut self, block: &Block<'_>, plant: &mut Plant, plan: &Plan) -> bool {
+    fn write(&mut self, block: &Block<'_>, plant: &mut Plant, events: &[(u32, Event)]) -> bool {
         if block.laws.node.is_bare {
             self.leaves.clear();
             self.flowers.rows.clear();
@@ -91,10 +99,15 @@ impl Columns {
         self.numbers.set(block, first, &self.leaves, &self.flowers.rows, axes);
         plant.add_organs(self.numbers.in_order(&self.leaves), &self.numbers.organs);
         let nodes = &self.nodes;
+        self.shoots.clear();
+        self.shoots.extend(block.shoots.iter().map(|shoot| OfAxis {
+            nodes: shoot.nodes.1 - shoot.nodes.0,
+            axis: shoot.bud.axis,
+            parent: shoot.bud.last_node,
+            rank: shoot.bud.rank + 1,
+        }));
         plant.add_nodes(&NewNodes {
-            axis: block.bud.axis,
-            parent: block.bud.last_node,
-            rank: block.rank(0),
+            axes: &self.shoots,
             units: &nodes.units,
             component: &self.numbers.nodes,
             axillary_buds: &self.bud_numbers,
@@ -110,14 +123,14 @@ impl Columns {
         if plant.dormant.are_kept() && !block.laws.node.is_bare {
             self.axes.remember_dormant(plant, block, &self.bud_numbers, &self.spacing);
         }
-        note_events(block, plant, plan, axes, first);
+        note_events(block, plant, events, axes, first);
         true
     }
 
-    /// The bud when it has made the nodes.
-    fn bud_after(&self, block: &Block<'_>, azimuth: f32) -> ApicalBud {
-        let (bud, last) = (block.bud, block.nodes() - 1);
-        let made = ApicalBud { azimuth, rank: block.rank(last), last_node: block.id(last), passages: 0, ..bud };
+    /// The bud of an axis when it has made its nodes.
+    fn bud_after(&self, block: &Block<'_>, shoot: &Shoot, azimuth: f32) -> ApicalBud {
+        let (bud, last) = (shoot.bud, shoot.nodes.1 as usize - 1);
+        let made = ApicalBud { azimuth, rank: shoot.rank(last), last_node: block.id(last), passages: 0, ..bud };
         if block.laws.node.is_bare {
             return ApicalBud { dormant: 0, ..made };
         }
@@ -128,9 +141,9 @@ impl Columns {
 
 /// Writes down the events of a block, where the plant keeps them: those of the bud, and between them, node by node, the
 /// axes that arise.
-fn note_events(block: &Block<'_>, plant: &mut Plant, plan: &Plan, axes: &[NewAxis], first: AxisId) {
+fn note_events(block: &Block<'_>, plant: &mut Plant, planned: &[(u32, Event)], axes: &[NewAxis], first: AxisId) {
     let Some(events) = &mut plant.events else { return };
-    let mut own = plan.events.as_slice();
+    let mut own = planned;
     for (place, new) in axes.iter().enumerate() {
         let node = new.bearer.map_or(0, |bearer| bearer.0 - block.first.0);
         let before = own.iter().take_while(|(nodes, _)| *nodes <= node).count();

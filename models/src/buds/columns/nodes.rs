@@ -2,6 +2,7 @@
 
 use super::block::Block;
 use crate::buds::compile::{Draws, Things};
+use crate::buds::plan::Shoot;
 use crate::buds::site::turned;
 use phytomer_sim::plant::OfUnit;
 
@@ -14,11 +15,13 @@ pub struct NodeColumns {
     divergence: Vec<f32>,
     pub azimuth: Vec<f32>,
     pub trend: Vec<u8>,
+    /// For each axis the azimuth of the node after its last.
+    pub next_azimuth: Vec<f32>,
 }
 
 impl NodeColumns {
-    /// Draws the internodes of a block. Returns the azimuth of the node after the last.
-    pub fn draw(&mut self, block: &Block<'_>, nodes: &Things) -> f32 {
+    /// Draws the internodes of a block.
+    pub fn draw(&mut self, block: &Block<'_>, nodes: &Things) {
         let laws = &block.laws.node;
         for column in [&mut self.length, &mut self.diameter, &mut self.divergence] {
             column.resize(block.nodes(), 0.0);
@@ -32,13 +35,16 @@ impl NodeColumns {
         self.set_trends(block);
         self.set_units(block);
         self.azimuth.clear();
-        let mut azimuth = block.bud.azimuth;
-        self.azimuth.extend(self.divergence.iter().map(|&divergence| {
-            let here = azimuth;
-            azimuth = turned(azimuth, divergence);
-            here
-        }));
-        azimuth
+        self.next_azimuth.clear();
+        for shoot in block.shoots {
+            let mut azimuth = shoot.bud.azimuth;
+            self.azimuth.extend(self.divergence[shoot.places()].iter().map(|&divergence| {
+                let here = azimuth;
+                azimuth = turned(azimuth, divergence);
+                here
+            }));
+            self.next_azimuth.push(azimuth);
+        }
     }
 
     fn set_trends(&mut self, block: &Block<'_>) {
@@ -46,9 +52,17 @@ impl NodeColumns {
         self.trend.clear();
         match trends.only() {
             Some(only) => self.trend.resize(block.nodes(), only),
-            None => block.each(|node, piece, _| {
-                self.trend.push(trends.at(block.rank(node), piece.at.state, block.trends));
-            }),
+            None => {
+                let mut shoots = block.shoots.iter();
+                let mut shoot = shoots.next();
+                block.each(|node, piece, _| {
+                    while shoot.is_some_and(|shoot| shoot.nodes.1 as usize <= node) {
+                        shoot = shoots.next();
+                    }
+                    let trend = |shoot| trends.at(Shoot::rank(shoot, node), piece.at.state, block.trends_of(shoot));
+                    self.trend.push(shoot.map_or(0, trend));
+                });
+            }
         }
     }
 

@@ -27,11 +27,12 @@ pub(super) use change::{join, nodes_times};
 pub(super) use contact::ContactLaws;
 pub(super) use head::HeadLaws;
 pub(super) use node::{
-    LeafFall, NODE_OF_RESPONSES, NodeLaws, PLACE_OF_EATEN_FLOWERS, PLACE_OF_EATEN_FRUITS, PLACE_OF_EATEN_LEAVES,
+    LeafFall, NODE_OF_RESPONSES, NodeLaws, OrganLaws, PLACE_OF_EATEN_FLOWERS, PLACE_OF_EATEN_FRUITS,
+    PLACE_OF_EATEN_LEAVES,
 };
 pub(super) use relay::EndLaws;
 pub(super) use step::{PLACE_OF_DEATH, PLACE_OF_WEAKNESS, Passage, STEP_OF_RESPONSES, StepLaws};
-pub(super) use words::{Chance, Draws, Piece, Spare, Things};
+pub(super) use words::{Chance, Draws, Number, Piece, Spare, Things};
 pub(super) use zone::{Ramification, Ranks};
 
 use super::params::Buds;

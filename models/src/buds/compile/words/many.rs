@@ -77,6 +77,21 @@ impl Things {
         self.ends.extend(1..=nodes as u32);
     }
 
+    /// Makes these some of the things of the same nodes, at the places `chosen`, which rise.
+    pub fn choose(&mut self, of: &Self, chosen: &[u32]) {
+        self.words.clear();
+        self.ends.clear();
+        self.words.extend(chosen.iter().map(|&place| of.words[place as usize]));
+        let mut left = chosen.iter().peekable();
+        let mut count = 0;
+        self.ends.extend(of.ends.iter().map(|&end| {
+            while left.next_if(|place| **place < end).is_some() {
+                count += 1;
+            }
+            count
+        }));
+    }
+
     /// How many they are.
     #[inline]
     pub fn len(&self) -> usize {
