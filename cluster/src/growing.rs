@@ -203,17 +203,40 @@ impl Ready {
 
     /// Asks the cluster for the missing parts. An asking that is given up is to be told by [`Ready::stop`].
     ///
+    /// The answers of an executor that has ended are lost, and the parts that it grew are not: what is not there is then
+    /// asked for once more, as long as each asking brings a part. So there may be parts without an answer; the merge
+    /// checks them as all others.
+    ///
     /// # Errors
     /// [`GrowError`], with the parts that were not grown, each with its executor and what to do.
     pub async fn grow(&self) -> Result<Vec<Answer>, GrowError> {
-        let order = Arc::new(self.order());
-        let shards = self.shards();
-        if self.missing.is_empty() {
-            return Ok(Vec::new());
+        let store = self.held.store();
+        loop {
+            let left = |piece: &&Piece| !store.part(piece.shard).is_dir();
+            let missing: Vec<Piece> = self.missing.iter().filter(left).cloned().collect();
+            if missing.is_empty() {
+                return Ok(Vec::new());
+            }
+            let before = store.there();
+            match self.asked_once(&missing).await {
+                Err(GrowError::Cluster { source, .. }) if !gives_up(source.as_ref()) && store.there() > before => {}
+                done => return done,
+            }
         }
-        let answers = ask(&self.asked.scheduler, &self.missing, &order, &self.asked.program).await;
-        let answers = answers.map_err(|error| cluster(error, self.held.store().there(), shards))?;
-        counted(&self.missing, &answers).map_err(GrowError::Counts)?;
+    }
+
+    async fn asked_once(&self, missing: &[Piece]) -> Result<Vec<Answer>, GrowError> {
+        let order = Arc::new(self.order());
+        let (Asked { scheduler, program, .. }, shards) = (&self.asked, self.shards());
+        let answers = match ask(scheduler, missing, &order, program).await {
+            Ok(answers) => answers,
+            Err(error) => {
+                // Where the scheduler is gone, that is the reason, and not what it looked like from here.
+                let error = greet(scheduler, program).await.err().unwrap_or(error);
+                return Err(cluster(error, self.held.store().there(), shards));
+            }
+        };
+        counted(missing, &answers).map_err(GrowError::Counts)?;
         let faulty = answers.iter().filter_map(|answer| {
             let fault = answer.outcome.as_ref().err()?;
             Some((answer.shard, answer.executor.clone(), fault.clone()))
@@ -269,6 +292,12 @@ impl Ready {
         self.held.remove_folder().map_err(|source| StoreError::Io { path: folder, source })?;
         Ok(Outcome { merged, grown_now: by_executor.values().sum(), by_executor })
     }
+}
+
+/// Whether the scheduler has given the run up; else it was an answer that could not be fetched, or a scheduler that is
+/// gone.
+fn gives_up(error: &(dyn std::error::Error + 'static)) -> bool {
+    std::iter::successors(Some(error), |error| error.source()).any(|error| error.to_string().contains("Job "))
 }
 
 /// What is wrong with a part whose rows are not those that the executor answered.

@@ -5,6 +5,7 @@
 
 use anyhow::{Context, Result, bail};
 use std::io::{self, BufRead, BufReader, Read};
+use std::path::PathBuf;
 use std::process::{Child, ChildStdin, Command, Stdio};
 use std::thread;
 
@@ -13,6 +14,8 @@ pub struct Local {
     /// HOST:PORT of the scheduler.
     pub scheduler: String,
     children: Vec<(Child, Option<ChildStdin>)>,
+    /// The folder for answers.
+    work: PathBuf,
 }
 
 impl Local {
@@ -21,12 +24,14 @@ impl Local {
     /// # Errors
     /// Where one of them ends before it is ready.
     pub fn start(executors: usize, threads: usize) -> Result<Self> {
-        let mut local = Self { scheduler: String::new(), children: Vec::new() };
+        let work = std::env::temp_dir().join(format!("phytomer-cluster-{}", std::process::id()));
+        let mut local = Self { scheduler: String::new(), children: Vec::new(), work };
         local.scheduler = local.child(&["scheduler".to_owned(), "--listen".to_owned(), "127.0.0.1:0".to_owned()])?;
         for number in 1..=executors {
-            let words =
-                ["executor", "--scheduler", &local.scheduler, "--port", "0", "--name", &format!("executor {number}")];
-            let words = words.iter().map(ToString::to_string).chain(["--threads".to_owned(), threads.to_string()]);
+            let work = local.work.join(number.to_string()).display().to_string();
+            let (name, threads) = (format!("executor {number}"), threads.to_string());
+            let words = ["executor", "--scheduler", &local.scheduler, "--port", "0", "--work", &work];
+            let words = words.into_iter().chain(["--name", &name, "--threads", &threads]).map(ToOwned::to_owned);
             local.child(&words.collect::<Vec<_>>())?;
         }
         Ok(local)
@@ -58,6 +63,8 @@ impl Drop for Local {
             let _ = child.kill();
             let _ = child.wait();
         }
+        // Nobody fetches what is left of answers.
+        let _ = std::fs::remove_dir_all(&self.work);
     }
 }
 

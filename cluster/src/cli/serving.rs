@@ -10,6 +10,7 @@ use clap::Args;
 use phytomer::cli::{Verdict, terminal};
 use phytomer::run::Program;
 use std::net::{IpAddr, Ipv4Addr, SocketAddr};
+use std::path::PathBuf;
 use std::sync::Arc;
 
 /// When parts are dealt out again, and when a run is given up.
@@ -68,6 +69,9 @@ pub struct ExecutorVerb {
     /// How many parts grow at once, each on one thread; as many as the machine has threads if not given.
     #[arg(long, value_parser = clap::value_parser!(u16).range(1..=1024))]
     threads: Option<u16>,
+    /// The folder for answers until they are fetched; one in the system's folder for such files if not given.
+    #[arg(long, value_name = "DIR")]
+    work: Option<PathBuf>,
     /// Its name in messages; its address and port if not given.
     #[arg(long)]
     name: Option<String>,
@@ -96,11 +100,12 @@ impl SchedulerVerb {
 
 impl ExecutorVerb {
     pub fn obey(self) -> Result<Verdict> {
+        let threads = self.threads.map_or_else(threads_here, usize::from);
+        let own = || std::env::temp_dir().join(format!("phytomer-cluster-{}", std::process::id()));
+        let work = self.work.unwrap_or_else(own);
         if self.with_parent {
             ends_with_parent();
         }
-        let threads = self.threads.map_or_else(threads_here, usize::from);
-        let work = std::env::temp_dir().join(format!("phytomer-cluster-{}", std::process::id()));
         std::fs::create_dir_all(&work).with_context(|| format!("cannot create {}", work.display()))?;
         let name = self.name.unwrap_or_else(|| format!("{}:{}", self.listen, self.port));
         let worker = Arc::new(Worker::new(name.clone()));

@@ -1,15 +1,17 @@
 //! What is told of a cluster that cannot grow a run, and that the run can be gone on with where it can be.
 
-use super::home::{Home, contents};
-use phytomer::outputs::{FreeSpace, Space, SystemSpace};
+use super::home::{self, Home, contents};
+use phytomer::outputs::{FreeSpace, Mode, Space, SystemSpace};
 use phytomer::run::Program;
 use phytomer_cluster::executor::{self, Executing};
+use phytomer_cluster::growing::{Asked, GrowError, prepare};
 use phytomer_cluster::scheduler::{self, Scheduling};
 use phytomer_cluster::worker::Worker;
+use std::collections::BTreeSet;
 use std::net::{Ipv4Addr, SocketAddr};
-use std::path::Path;
-use std::sync::Arc;
+use std::path::{Path, PathBuf};
 use std::sync::mpsc::channel;
+use std::sync::{Arc, Mutex};
 use std::thread;
 
 /// A disk on which nothing is free.
@@ -89,6 +91,54 @@ fn a_full_disk_is_told_and_the_run_goes_on_elsewhere() {
     // The executor with the full disk is still there; another scheduler knows nothing of it.
     let scheduler = home.scheduler();
     let _executor = home.executor(&scheduler, "empty");
+    home.grow(&["--scheduler", &scheduler.address, "--out", "run", "--resume", "--quiet"]).ending(0);
+    assert!(contents(&home.path("run")) == home.whole());
+}
+
+/// Notes the folders in which parts were begun.
+#[derive(Debug, Default)]
+struct Noting(Mutex<BTreeSet<PathBuf>>);
+
+impl FreeSpace for Noting {
+    fn space(&self, folder: &Path) -> Option<Space> {
+        self.0.lock().unwrap().insert(folder.to_path_buf());
+        None
+    }
+}
+
+/// A part whose name a file has, which an executor can neither write nor pass by: it is tried so often as the scheduler
+/// says, and the others are grown.
+#[test]
+fn a_part_that_fails_is_tried_again_and_given_up() {
+    let home = Home::new();
+    let scheduler = home.scheduler();
+    let noting = Arc::new(Noting::default());
+    let space: Arc<dyn FreeSpace> = noting.clone();
+    let _ended =
+        executor(&scheduler.address, Worker::new("a").acting_as(Program::default(), space), &home.path("work"));
+    let asked = Asked {
+        stated: home::stated(),
+        out: home.path("run"),
+        mode: Mode::New,
+        ignore_disk: false,
+        scheduler: scheduler.address.clone(),
+        program: Program::default(),
+    };
+    let runtime = tokio::runtime::Builder::new_multi_thread().enable_all().build().unwrap();
+    let (ready, failed) = runtime.block_on(async {
+        let ready = prepare(asked).await.unwrap().unwrap();
+        std::fs::write(ready.store().part(3), "in the way").unwrap();
+        let failed = ready.grow().await.unwrap_err();
+        (ready, failed)
+    });
+    let told = format!("{failed}: {}", std::error::Error::source(&failed).unwrap());
+    assert!(matches!(failed, GrowError::Cluster { .. }) && told.contains("Job "), "{told}");
+    let begun = noting.0.lock().unwrap();
+    let of_part = |shard: &str| begun.iter().filter(|folder| folder.to_string_lossy().contains(shard)).count();
+    assert_eq!(of_part("-00003-"), 4, "{begun:?}");
+    std::fs::remove_file(ready.store().part(3)).unwrap();
+    drop(ready);
+    drop(begun);
     home.grow(&["--scheduler", &scheduler.address, "--out", "run", "--resume", "--quiet"]).ending(0);
     assert!(contents(&home.path("run")) == home.whole());
 }

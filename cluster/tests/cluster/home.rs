@@ -107,8 +107,8 @@ impl Home {
     }
 
     pub fn executor(&self, scheduler: &Scheduler, name: &str) -> Process {
-        let words = ["executor", "--scheduler", &scheduler.address, "--port", "0", "--threads", "1", "--name", name];
-        let (process, line) = self.ready(&words);
+        let words = ["executor", "--scheduler", &scheduler.address, "--port", "0", "--threads", "1", "--work", "work"];
+        let (process, line) = self.ready(&[&words[..], &["--name", name]].concat());
         assert!(line.contains("answers on port"), "{line}");
         process
     }

@@ -6,7 +6,7 @@
 use super::home::{Home, Process, Scheduler, contents, stated};
 use std::fs;
 use std::thread::sleep;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 const FEW: u32 = 4;
 
@@ -80,4 +80,22 @@ fn killed_processes_change_no_byte() {
     compare(&mut runs);
     println!("{kills} processes killed; {cut} askings cut off; {runs} runs compared");
     assert!(cut > 0, "no kill came before the end of a run of {}", stated().scenario);
+}
+
+/// The answers of an executor that has ended are lost; what it has grown is not, and nothing is asked for twice.
+#[test]
+fn an_executor_that_ends_takes_no_part_with_it() {
+    let home = Home::new();
+    let scheduler = home.scheduler();
+    let mut first = home.executor(&scheduler, "first");
+    let mut asking = home.start_grow(&["--scheduler", &scheduler.address, "--out", "run"]);
+    let begun = Instant::now();
+    while home.parts_of("run") < 2 && begun.elapsed() < Duration::from_secs(60) {
+        sleep(Duration::from_millis(5));
+    }
+    first.0.kill().unwrap();
+    first.0.wait().unwrap();
+    let _second = home.executor(&scheduler, "second");
+    assert!(asking.0.wait().unwrap().success());
+    assert!(contents(&home.path("run")) == home.whole());
 }
