@@ -47,6 +47,8 @@ fn merged_shards_are_the_run_that_was_grown_at_once() {
     let refused = merge(home.path(), "merged", &SHARES, &[]).ending(1).stderr;
     assert!(refused.contains("already holds files"), "{refused}");
     merge(home.path(), "merged", &SHARES, &["--overwrite", "--quiet"]).ending(0);
+    merge(home.path(), "linked", &SHARES, &["--link", "--quiet"]).ending(0);
+    assert!(contents(&home.path().join("linked")) == whole);
     // A mended run is that run too, and so is one whose merge is gone through again.
     fs::remove_file(home.path().join("merged/records/part-00004.parquet")).unwrap();
     let told = merge(home.path(), "merged", &SHARES, &["--resume"]).ending(0).stdout;

@@ -37,9 +37,9 @@ pub use phytomer_pages as pages;
 pub use phytomer_pictures as pictures;
 pub use phytomer_usd as usd;
 pub use run_folder::{
-    Checking, Checkup, Depth, Difference, Differences, Error, FileReport, Finding, Holder, MergeFault, MergeFaults,
-    Merged, Mode, Opening, OvergrownPlot, RunFolder, RunReport, Shard, ShardReport, Share, State, Trouble, check,
-    merge,
+    Checking, Checkup, Depth, Difference, Differences, Error, FileReport, Files, Finding, Holder, MergeFault,
+    MergeFaults, Merged, Mode, Opening, OvergrownPlot, RunFolder, RunReport, Shard, ShardReport, Share, State, Trouble,
+    check, fingerprint, merge, merge_by,
 };
 pub use storage::FileError;
 pub use storage::space::{Bytes, FreeSpace, Space, SystemSpace, WaitFor};

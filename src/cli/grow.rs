@@ -286,7 +286,10 @@ fn shown(word: &str) -> String {
 }
 
 /// A name as a folder's: what some system might take amiss becomes `-`.
-fn folder_name(name: &str) -> Result<String> {
+///
+/// # Errors
+/// Where nothing is left of it.
+pub fn folder_name(name: &str) -> Result<String> {
     let plain = |c: char| if c.is_alphanumeric() || "._-+".contains(c) { c } else { '-' };
     let folder: String = name.trim().chars().map(plain).collect();
     let folder = folder.trim_start_matches('.').to_owned();

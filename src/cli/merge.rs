@@ -6,7 +6,7 @@
 use super::{Misuse, Verdict, amounts, bar, interrupt, terminal};
 use anyhow::Result;
 use clap::Args;
-use phytomer_outputs::{Checking, Error, Merged, Mode, Opening, SystemSpace, merge};
+use phytomer_outputs::{Checking, Error, Files, Merged, Mode, Opening, SystemSpace, merge_by};
 use serde_json::json;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -17,6 +17,7 @@ use std::sync::Arc;
 Examples:
   phytomer merge merged runs/coffee-shard-1-of-2 runs/coffee-shard-2-of-2
   phytomer merge merged runs/coffee-shard-1-of-2 runs/coffee-shard-2-of-2 --overwrite --json
+  phytomer merge merged runs/coffee-shard-1-of-2 runs/coffee-shard-2-of-2 --link
 
 A shell lists the folders: `phytomer merge runs/coffee runs/coffee-shard-*`. They must be of one scenario, seed and
 program, and hold each part of the run once. Exit code 1 where they do not, where a file is damaged or could not be
@@ -34,6 +35,10 @@ pub struct Merge {
     /// Replace the run that is in the folder.
     #[arg(long)]
     overwrite: bool,
+    /// Give each file a second name in the run (a hard link) in place of a copy, where one disk has both: the folders
+    /// of the shards are then best removed. Files are checked all the same, and are copied where there are no links.
+    #[arg(long)]
+    link: bool,
     /// Tell what came of it as one JSON object on stdout.
     #[arg(long)]
     json: bool,
@@ -72,7 +77,8 @@ impl Merge {
             _ => Mode::New,
         };
         let opening = Opening { checking, space: Arc::new(SystemSpace), share: None };
-        merge(&self.out, &self.parts, mode, &opening)
+        let files = if self.link { Files::Linked } else { Files::Copied };
+        merge_by(files, &self.out, &self.parts, (mode, &opening))
     }
 
     fn tell(&self, merged: &Merged) -> Result<()> {

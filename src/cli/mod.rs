@@ -44,6 +44,8 @@ mod validate;
 mod verify;
 mod view;
 
+pub use grow::folder_name;
+
 use anyhow::Result;
 use clap::{Parser, Subcommand};
 use phytomer_config::Report;

@@ -28,6 +28,10 @@ use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
+/// Shards that are copied at once: most of the time is spent in waiting for the disk, which writes several files as
+/// fast as one.
+const COPIES_AT_ONCE: usize = 8;
+
 /// What came of a merge.
 #[derive(Debug, Clone)]
 pub struct Merged {
@@ -37,6 +41,16 @@ pub struct Merged {
     pub shards: u32,
     /// The number of shards that were copied now; fewer than `shards` where a merge was resumed.
     pub copied: u32,
+}
+
+/// How the files of the shares come into the folder of the run.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Files {
+    /// Each is copied, and hashed on the way: the folders of the shares may be on other disks, and may be changed.
+    Copied,
+    /// Each gets a second name (a hard link), and no byte is copied; a copy where the file system has no links. A
+    /// change of one would be a change of both, so the folders of the shares are to be removed afterwards.
+    Linked,
 }
 
 /// A folder with a share of the run.
@@ -53,6 +67,19 @@ struct Source {
 /// # Errors
 /// [`Error::Merge`] with all that is wrong with the folders; else as [`RunFolder::open`](super::RunFolder::open).
 pub fn merge(into: &Path, parts: &[PathBuf], mode: Mode, opening: &Opening) -> Result<Merged, Error> {
+    merge_by(Files::Copied, into, parts, (mode, opening))
+}
+
+/// As [`merge`], where the files are copied or linked.
+///
+/// # Errors
+/// As [`merge`].
+pub fn merge_by(
+    files: Files,
+    into: &Path,
+    parts: &[PathBuf],
+    (mode, opening): (Mode, &Opening),
+) -> Result<Merged, Error> {
     let sources = gathered(into, parts, opening.checking)?;
     let Some(first) = sources.first() else { return Err(Error::Merge(MergeFaults(Vec::new()))) };
     let drafts = Drafts::of(&first.folder, &first.run)?;
@@ -63,7 +90,11 @@ pub fn merge(into: &Path, parts: &[PathBuf], mode: Mode, opening: &Opening) -> R
     let is_missing = |(_, shard): &&(&Path, &ShardReport)| !target.journal().done().contains_key(&shard.shard);
     let missing: Vec<_> = all.iter().filter(is_missing).collect();
     opening.checking.begin_copying(missing.iter().map(|(_, shard)| shard.bytes()).sum());
-    missing.par_iter().try_for_each(|(from, shard)| target.adopt(from, shard, opening.checking))?;
+    let adopt = || missing.par_iter().try_for_each(|(from, shard)| target.adopt(files, from, shard, opening.checking));
+    match rayon::ThreadPoolBuilder::new().num_threads(COPIES_AT_ONCE).build() {
+        Ok(pool) => pool.install(adopt)?,
+        Err(_) => adopt()?,
+    }
     let timings = timings_of(&sources);
     let timings: Vec<(&str, f64)> = timings.iter().map(|(name, seconds)| (name.as_str(), *seconds)).collect();
     let mut journal = target.journal();
@@ -242,10 +273,29 @@ impl Target {
         self.journal.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Copies the files of a shard from another folder of the same run and enters the shard in the journal.
-    fn adopt(&self, from: &Path, report: &ShardReport, checking: &Checking) -> Result<(), Error> {
-        report.files.iter().try_for_each(|file| self.copy(from, file, checking))?;
+    /// Takes the files of a shard from another folder of the same run and enters the shard in the journal.
+    fn adopt(&self, files: Files, from: &Path, report: &ShardReport, checking: &Checking) -> Result<(), Error> {
+        report.files.iter().try_for_each(|file| match files {
+            Files::Linked if self.link(from, file)? => Ok(()),
+            _ => self.copy(from, file, checking),
+        })?;
         self.journal().enter(report.clone())
+    }
+
+    /// Gives a file its name in this folder too; `false` where the file system has no links. The check of the sources
+    /// has read the file.
+    fn link(&self, from: &Path, file: &FileReport) -> Result<bool, Error> {
+        let (source, to) = (from.join(&file.path), self.path.join(&file.path));
+        if let Some(folder) = to.parent() {
+            fs::create_dir_all(folder).map_err(Error::io("create", folder))?;
+        }
+        let staged = durable::beside(&to);
+        durable::remove(&staged)?;
+        if fs::hard_link(&source, &staged).is_err() {
+            return Ok(false);
+        }
+        durable::rename(&staged, &to)?;
+        Ok(true)
     }
 
     fn copy(&self, from: &Path, file: &FileReport, checking: &Checking) -> Result<(), Error> {

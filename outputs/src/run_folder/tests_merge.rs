@@ -106,6 +106,32 @@ fn an_interrupted_share_and_an_interrupted_merge_go_on() {
 }
 
 #[test]
+fn linked_shares_are_the_run_without_a_copy() {
+    let (home, [first, second], whole) = shared();
+    let merged = home.path().join("merged");
+    let link = |mode| {
+        let checking = Checking::default();
+        merge_by(Files::Linked, &merged, &[first.clone(), second.clone()], (mode, &opening(&checking, None)))
+    };
+    assert_eq!(link(Mode::New).unwrap().copied, 4);
+    assert!(contents(&merged) == contents(&whole));
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::MetadataExt;
+        let inode = |folder: &Path| fs::metadata(folder.join("records/part-00001.parquet")).unwrap().ino();
+        assert_eq!(inode(&merged), inode(&second));
+    }
+    // A merge that was interrupted between two names has left one beside; the shares are as they were.
+    fs::remove_file(merged.join("records/part-00002.parquet")).unwrap();
+    fs::hard_link(first.join("records/part-00002.parquet"), merged.join("records/.part-00002.parquet.tmp")).unwrap();
+    assert_eq!(link(Mode::Resume).unwrap().copied, 1);
+    assert!(contents(&merged) == contents(&whole));
+    [first, second].iter().for_each(|share| fs::remove_dir_all(share).unwrap());
+    assert!(contents(&merged) == contents(&whole));
+    assert!(check(&merged, Depth::Bytes, &Checking::default()).unwrap().is_clean());
+}
+
+#[test]
 fn gaps_overlaps_damage_and_other_runs_are_told_together() {
     let (home, [first, second], whole) = shared();
     let merged = home.path().join("merged");
