@@ -17,11 +17,15 @@ pub use beside::{Beside, Spared, Touch};
 
 use crate::clock::Tick;
 use crate::plant::{NodeId, Plant};
-use crate::shape::Point;
+use crate::shape::tree::{Tree, Walk};
+use crate::shape::{Bounds, Point};
 use crate::vector::Vector;
 use cells::{Cells, Which};
 use rayon::iter::{IndexedParallelIterator, IntoParallelRefIterator, IntoParallelRefMutIterator, ParallelIterator};
+use std::sync::OnceLock;
 
+/// The most internodes under one leaf of a tree.
+const PIECE: usize = 8;
 /// The fewest plants whose stems are followed on several threads.
 const FEWEST_PLANTS: usize = 16;
 /// What a stem may grow thicker before it is entered anew: a share of its radius, and metres.
@@ -49,6 +53,8 @@ pub struct Stems {
     plants: Vec<OfPlant>,
     /// Where they are.
     cells: Cells,
+    /// Over the plants, in the plot; made when a bud first looks around.
+    tree: OnceLock<Tree>,
 }
 
 /// The stems of one plant, metres from its seed.
@@ -68,6 +74,10 @@ struct OfPlant {
     turn: bool,
     /// The version of the frames at that time.
     version: u64,
+    /// The nodes of each piece of an axis that stands.
+    pieces: Vec<(u32, u32)>,
+    /// Over the pieces; made when a bud that looks around comes near.
+    tree: OnceLock<Tree>,
 }
 
 /// One internode.
@@ -113,6 +123,7 @@ impl Stems {
             let empty = |plant: &Plant| OfPlant { number: plant.id, place: plant.place, ..OfPlant::default() };
             (self.plants, self.cells) = (plants.iter().map(empty).collect(), Cells::default());
         }
+        self.tree = OnceLock::new();
         let Self { plants: all, cells, .. } = self;
         let follow = |(of, (plant, age)): (&mut OfPlant, (&Plant, &Option<Tick>))| of.follow(plant, *age, cells);
         if plants.len() < FEWEST_PLANTS {
@@ -188,6 +199,35 @@ impl Stems {
         }
     }
 
+    /// As [`Stems::each_near`], in the order of trees over plants and over pieces of their axes: that in which climbers
+    /// have always found what they hold to, where two stems are equally near.
+    fn each_around(&self, point: Point, reach: f64, spared: Spared, show: &mut impl FnMut(&OfPlant, &Stem)) {
+        let far = |bounds: &Bounds, point: Point| bounds.square_distance(point) >= reach * reach;
+        let tree = self.tree.get_or_init(|| Tree::of(&self.plants.iter().map(OfPlant::bounds).collect::<Vec<_>>()));
+        tree.walk(|_, bounds, item| {
+            if far(bounds, point) {
+                return Walk::Past;
+            }
+            let Some(plant) = item.map(|item| &self.plants[item]) else { return Walk::Below };
+            if plant.number == spared.plant && self.whose != Whose::All {
+                return Walk::Past;
+            }
+            let at = [0, 1, 2].map(|k| point[k] - plant.place[k]);
+            plant.tree().walk(|_, bounds, piece| {
+                if far(bounds, at) {
+                    return Walk::Past;
+                }
+                for stem in piece.map_or(&[][..], |piece| plant.piece(piece)) {
+                    if self.is_met(plant, stem, spared) && stem.distance(at) < reach {
+                        show(plant, stem);
+                    }
+                }
+                Walk::Below
+            });
+            Walk::Below
+        });
+    }
+
     /// All stems that stand.
     fn each(&self) -> impl Iterator<Item = Which> {
         let of_plant = |(plant, of): (u32, &OfPlant)| {
@@ -212,14 +252,18 @@ impl OfPlant {
         let moves = self.version != plant.frames.version;
         self.version = plant.frames.version;
         self.changed.clear();
+        self.pieces.clear();
+        self.tree = OnceLock::new();
         self.stems.resize(posed.max(self.stems.len()), Stem::NONE);
         self.turn = !self.turn;
-        let Self { stems, changed, turn, .. } = self;
+        let Self { stems, changed, turn, pieces, .. } = self;
         if let Some(age) = age {
             plant.each_standing(age, |stretch| {
                 let nodes = stretch.nodes();
                 let nodes = nodes.start..nodes.end.min(posed);
                 seen += nodes.len();
+                let piece = |start: usize| (start as u32, nodes.end.min(start + PIECE) as u32);
+                pieces.extend(nodes.clone().step_by(PIECE).map(piece));
                 let axis = stretch.axis.0;
                 let radii = plant.nodes.diameter[nodes.clone()].iter().zip(&plant.nodes.diameter_tip[nodes.clone()]);
                 for ((node, stem), (base, tip)) in nodes.clone().zip(&mut stems[nodes]).zip(radii) {
@@ -249,6 +293,28 @@ impl OfPlant {
         self.standing = seen;
     }
 
+    fn tree(&self) -> &Tree {
+        self.tree
+            .get_or_init(|| Tree::of(&(0..self.pieces.len()).map(|piece| self.bounds_of(piece)).collect::<Vec<_>>()))
+    }
+
+    fn piece(&self, piece: usize) -> &[Stem] {
+        let (start, end) = self.pieces[piece];
+        &self.stems[start as usize..end as usize]
+    }
+
+    /// The bounds of a piece of an axis, metres from the seed.
+    fn bounds_of(&self, piece: usize) -> Bounds {
+        self.piece(piece).iter().fold(Bounds::NOTHING, |all, stem| all.with(&stem.bounds()))
+    }
+
+    /// Its bounds in the plot.
+    fn bounds(&self) -> Bounds {
+        let all = (0..self.pieces.len()).fold(Bounds::NOTHING, |all, piece| all.with(&self.bounds_of(piece)));
+        let placed = |corner: Point| [0, 1, 2].map(|k| corner[k] + self.place[k]);
+        Bounds { low: placed(all.low), high: placed(all.high) }
+    }
+
     /// Takes out what does not stand any more.
     fn forget(&mut self) {
         for (node, stem) in (0..).zip(&mut self.stems).filter(|(_, stem)| stem.entered >= 0.0) {
@@ -270,6 +336,11 @@ impl Stem {
         let end = frame.advanced(plant.posed_length(NodeId(node as u32))).base;
         let radii = [plant.nodes.diameter[node], plant.nodes.diameter_tip[node]].map(|diameter| 0.5 * diameter);
         Self { start: frame.base, end, radii, axis, ..Self::NONE }
+    }
+
+    fn bounds(&self) -> Bounds {
+        let ends = [self.start, self.end].map(|end| end.map(f64::from));
+        Bounds::of_points(&ends).with_margin(f64::from(self.radii[0].max(self.radii[1])))
     }
 
     /// The larger of its radii, metres.

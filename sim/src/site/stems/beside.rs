@@ -93,7 +93,7 @@ impl Beside {
         if !self.known {
             self.known = true;
             self.stems.clear();
-            all.each_near(self.middle, self.reach, spared, &mut |plant, stem| {
+            all.each_around(self.middle, self.reach, spared, &mut |plant, stem| {
                 self.stems.push(Near::of(stem, plant.place, plant.number));
             });
         }

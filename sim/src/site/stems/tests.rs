@@ -16,11 +16,12 @@ fn of_plant(number: u32, place: Point, stems: &[([f32; 3], [f32; 3], f32)]) -> O
     };
     let stems: Vec<Stem> = stems.iter().enumerate().map(stem).collect();
     let (standing, length) = (stems.len(), stems.iter().map(Stem::extent).sum());
-    OfPlant { number, place, stems, standing, length, ..OfPlant::default() }
+    let pieces = (0..standing as u32).step_by(3).map(|start| (start, (start + 3).min(standing as u32))).collect();
+    OfPlant { number, place, stems, standing, length, pieces, ..OfPlant::default() }
 }
 
 fn stems(plants: Vec<OfPlant>, whose: Whose) -> Stems {
-    let mut stems = Stems { whose, plants, cells: Cells::default() };
+    let mut stems = Stems { whose, plants, ..Stems::default() };
     stems.enter();
     stems
 }
@@ -115,6 +116,10 @@ fn what_is_near_is_what_asking_each_stem_finds() {
             let mut near = Vec::new();
             all.each_near(point, reach, spared, &mut |plant, stem| near.push((plant.number, stem.axis)));
             near.sort_unstable();
+            let mut around = Vec::new();
+            all.each_around(point, reach, spared, &mut |plant, stem| around.push((plant.number, stem.axis)));
+            around.sort_unstable();
+            assert_eq!(near, around);
             let mut expected = Vec::new();
             for plant in &plants {
                 for stem in &plant.stems {
