@@ -16,7 +16,7 @@ const MOST_ON_NODE: usize = 64;
 
 /// The words that an axis which goes through many steps reads at once, the first time and later: blocks of a stream are
 /// made faster many at once, but an axis may die soon.
-const WORDS_AT_ONCE: [usize; 2] = [64, 192];
+const WORDS_AT_ONCE: [usize; 2] = [32, 96];
 
 /// The words of one axis.
 #[derive(Debug, Default)]

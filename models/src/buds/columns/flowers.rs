@@ -71,8 +71,10 @@ impl Flowers {
         laws.flower.insertion.draw_many(draws, &mut self.insertions, |entry| entry);
         self.flowers.draw(&laws.flower, &laws.flower_life, draws);
         laws.fruit_set.test_many(draws, |flower| self.setting.push(flower as u32));
-        self.set.choose(&self.opened, &self.setting);
-        self.fruits.draw(&laws.fruit, &laws.fruit_life, block.draws(&self.set));
+        if !self.setting.is_empty() {
+            self.set.choose(&self.opened, &self.setting);
+            self.fruits.draw(&laws.fruit, &laws.fruit_life, block.draws(&self.set));
+        }
         self.set_rows(block, first, spacing);
     }
 

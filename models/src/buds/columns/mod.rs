@@ -47,8 +47,8 @@ pub struct Columns {
 }
 
 impl Columns {
-    /// Makes the nodes of a block, between the events of their buds. Whether the plant has room for them; it has none of
-    /// them otherwise.
+    /// Makes the nodes of a block, between the events of their buds. Whether the plant has room for them; otherwise it
+    /// has none of them.
     pub fn make(&mut self, block: &Block<'_>, plant: &mut Plant, events: &[(u32, Event)]) -> bool {
         self.draw(block);
         let has_room = self.write(block, plant, events);
