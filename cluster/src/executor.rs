@@ -47,8 +47,8 @@ pub async fn serve(executing: Executing, worker: Arc<Worker>, ready: impl FnOnce
         IpAddr::V6(address) => format!("[{address}]"),
     };
     let config = ExecutorProcessConfig {
-        // Not its name: an executor that is started again must not be taken for the one that was lost, whose parts would
-        // then be waited for without end.
+        // Not its name: an executor that is started again must not be taken for the one that was lost, whose parts
+        // would then be waited for without end.
         executor_id: new_instance_id(),
         bind_host: listen.clone(),
         external_host: Some(executing.advertise.unwrap_or(listen)),

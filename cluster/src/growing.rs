@@ -203,9 +203,9 @@ impl Ready {
 
     /// Asks the cluster for the missing parts. An asking that is given up is to be told by [`Ready::stop`].
     ///
-    /// The answers of an executor that has ended are lost, and the parts that it grew are not: what is not there is then
-    /// asked for once more, as long as each asking brings a part. So there may be parts without an answer; the merge
-    /// checks them as all others.
+    /// The answers of an executor that has ended are lost, and the parts that it grew are not: what is not there is
+    /// then asked for once more, as long as each asking brings a part. So there may be parts without an answer; the
+    /// merge checks them as all others.
     ///
     /// # Errors
     /// [`GrowError`], with the parts that were not grown, each with its executor and what to do.
