@@ -41,6 +41,8 @@ mod tests_range;
 #[cfg(test)]
 mod tests_stated;
 mod tube;
+mod welded;
+mod wood;
 
 pub use blocks::TakeAlone;
 pub use boxes::Boxing;
@@ -127,6 +129,29 @@ impl Tolerance {
     }
 }
 
+/// How internodes hang together.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Joints {
+    /// Each tube ends on its own, and those that meet go through one another.
+    #[default]
+    Open,
+    /// As open, and the foot of each branch widens into its bearer.
+    Collar,
+    /// All wood is one closed surface, a sphere by the way in which it hangs together.
+    Welded,
+}
+
+impl Joints {
+    /// What a file says of them; nothing of open ones.
+    pub fn in_words(self) -> Option<&'static str> {
+        match self {
+            Self::Open => None,
+            Self::Collar => Some("joints collar: the foot of each branch widens into its bearer"),
+            Self::Welded => Some("joints welded: the wood is one closed surface, t in metres from the ground"),
+        }
+    }
+}
+
 /// Options for drawing plants.
 #[derive(Debug, Clone)]
 pub struct MeshOptions {
@@ -134,6 +159,8 @@ pub struct MeshOptions {
     pub sides: u8,
     /// How near the wood is drawn; `None`: each internode by itself.
     pub tolerance: Option<Tolerance>,
+    /// How internodes hang together.
+    pub joints: Joints,
     /// For each kind, by the number of [`Kind`], whether it is drawn.
     pub kinds: [bool; Kind::ALL.len()],
     /// The mesh files that the species names as forms; empty where it names none.
@@ -172,6 +199,7 @@ impl Default for MeshOptions {
         Self {
             sides: 8,
             tolerance: None,
+            joints: Joints::Open,
             kinds,
             own: Arc::default(),
             seen: Seen::default(),
