@@ -7,6 +7,7 @@
 //! one file each and one line here; which format is written is the caller's choice. Vertices are not shared between
 //! components. Absent: buds, which have no form, and bending, which is part of the pose.
 
+mod attributes;
 mod blocks;
 mod boxes;
 mod budget;
@@ -175,6 +176,8 @@ pub struct MeshOptions {
     pub colours: Option<Arc<Vec<[u8; 3]>>>,
     /// How each axis sways, for vertices that tell it; `None`: they do not.
     pub swings: Option<Arc<Vec<Swing>>>,
+    /// Whether vertices tell order, radius, path length and phase.
+    pub attributes: bool,
 }
 
 impl MeshOptions {
@@ -207,6 +210,7 @@ impl Default for MeshOptions {
             crown_normals: false,
             colours: None,
             swings: None,
+            attributes: false,
         }
     }
 }

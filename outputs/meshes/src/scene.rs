@@ -71,7 +71,7 @@ impl<'a> Scene<'a> {
         let stems = Stems::of(plant, age, options);
         let wood = Wood::of(&stems, options);
         let paints = Paints::of(&plant.habit);
-        let columns = Columns::of(plant, stems.detail.as_ref(), options.swings.as_ref());
+        let columns = Columns::of(plant, stems.detail.as_ref(), options.swings.as_ref(), options.attributes);
         let (options, outlines) = (options.clone(), Outlines::of(plant));
         let mut scene = Self { plant, age, options, paints, stems, wood, outlines, crown: None, columns };
         scene.crown = scene.options.crown_normals.then(|| scene.crown()).flatten();
