@@ -34,19 +34,20 @@ fn write(folder: &Path, name: &str, age: Option<&str>, joints: &str) -> String {
     folder.join(out).to_str().expect("a path in UTF-8").to_owned()
 }
 
-fn holds(name: &str, age: Option<&str>) {
+/// Lets trimesh read all specimens.
+fn hold(specimens: &[(&str, Option<&str>)]) {
     let Some(python) = reading::python() else { return };
     let folder = tempfile::tempdir().expect("a temporary folder");
-    let [welded, open] = ["welded", "open"].map(|joints| write(folder.path(), name, age, joints));
     let kinds = Kind::ALL.into_iter().filter(|kind| kind.class() == Class::Internode);
     let kinds: Vec<String> = kinds.map(|kind| (kind as u8).to_string()).collect();
-    let words: Vec<&str> = [&*welded, &*open].into_iter().chain(kinds.iter().map(String::as_str)).collect();
-    reading::read(&python, "welded.py", &words);
+    let pair = |(name, age): &(&str, Option<&str>)| ["welded", "open"].map(|how| write(folder.path(), name, *age, how));
+    let words: Vec<String> = [kinds.join(",")].into_iter().chain(specimens.iter().flat_map(pair)).collect();
+    reading::read(&python, "welded.py", &words.iter().map(String::as_str).collect::<Vec<_>>());
 }
 
 #[test]
 fn wood_of_specimens_is_one_closed_surface() {
-    SPECIMENS.into_iter().for_each(|(name, age)| holds(name, age));
+    hold(&SPECIMENS);
 }
 
 #[test]
@@ -54,11 +55,11 @@ fn wood_of_the_architectural_models_is_one_closed_surface() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("config/presets/halle");
     let mut names: Vec<String> = fs::read_dir(folder)
         .expect("the presets")
-        .map(|file| file.expect("a file").path().file_stem().expect("a name").to_string_lossy().into_owned())
+        .map(|file| format!("halle/{}", file.expect("a file").path().file_stem().expect("a name").to_string_lossy()))
         .collect();
     names.sort();
     assert_eq!(names.len(), 23);
-    names.iter().for_each(|name| holds(&format!("halle/{name}"), None));
+    hold(&names.iter().map(|name| (name.as_str(), None)).collect::<Vec<_>>());
 }
 
 /// Open joints are what is written where none are asked for, byte for byte.

@@ -1,6 +1,6 @@
-"""trimesh reads welded wood: welded.py WELDED.ply OPEN.ply KIND...
+"""trimesh reads welded wood: welded.py KIND,KIND... WELDED.ply OPEN.ply [WELDED.ply OPEN.ply]...
 
-Of both files the internodes are read, by the numbers of their kinds. The welded ones are watertight, wound one way, one
+Of both files of a pair the internodes are read, by the numbers of their kinds. The welded ones are watertight, wound one way, one
 body and of Euler number 2. Their volume is within 2 % of the union of the frusta of the open mesh, which is found by
 Karp and Luby's method (1985): points are drawn in the frusta by their volumes, and the union is the sum of the volumes
 times the mean of 1 / the number of frusta that hold a point. Its standard error is computed, and four of them are
@@ -15,7 +15,7 @@ import trimesh
 from scipy.spatial import cKDTree
 
 DRAWS = 60_000
-welded, opened, kinds = sys.argv[1], sys.argv[2], [int(kind) for kind in sys.argv[3:]]
+kinds = [int(kind) for kind in sys.argv[1].split(",")]
 
 
 def wood(path):
@@ -94,14 +94,19 @@ def union(rows):
     return volume.sum() * shares.mean(), volume.sum() * shares.std() / numpy.sqrt(DRAWS)
 
 
-points, faces, *_ = wood(welded)
-mesh = trimesh.Trimesh(points, faces, process=False)
-mesh.remove_unreferenced_vertices()
-merged = trimesh.Trimesh(points, faces, process=True)
-for name, read in [("as it is", mesh), ("merged by place", merged)]:
-    found = read.is_watertight, read.is_winding_consistent, read.body_count, read.euler_number
-    assert found == (True, True, 1, 2), f"{welded} {name}: {found}"
-expected, error = union(frusta(opened))
-off = abs(mesh.volume / expected - 1)
-assert off + 4 * error / expected < 0.02, f"{welded}: volume {mesh.volume}, union {expected} +- {error}"
-print(f"{welded}: {len(faces)} triangles, a sphere, {100 * (mesh.volume / expected - 1):+.2f} % of the union (error {100 * error / expected:.2f} %)")
+def check(welded, opened):
+    points, faces, *_ = wood(welded)
+    mesh = trimesh.Trimesh(points, faces, process=False)
+    mesh.remove_unreferenced_vertices()
+    merged = trimesh.Trimesh(points, faces, process=True)
+    for name, read in [("as it is", mesh), ("merged by place", merged)]:
+        found = read.is_watertight, read.is_winding_consistent, read.body_count, read.euler_number
+        assert found == (True, True, 1, 2), f"{welded} {name}: {found}"
+    expected, error = union(frusta(opened))
+    off = abs(mesh.volume / expected - 1)
+    assert off + 4 * error / expected < 0.02, f"{welded}: volume {mesh.volume}, union {expected} +- {error}"
+    print(f"{welded}: {len(faces)} triangles, a sphere, {100 * (mesh.volume / expected - 1):+.2f} % of the union (error {100 * error / expected:.2f} %)")
+
+
+for welded, opened in zip(sys.argv[2::2], sys.argv[3::2]):
+    check(welded, opened)

@@ -210,9 +210,9 @@ impl Course {
             next[k] = ways.get(k).copied().flatten().or_else(|| next.get(k + 1).copied().flatten());
         }
         let (mut before, mut last) = (None, None);
-        for k in 0..count {
+        for (k, above) in next.into_iter().enumerate() {
             before = k.checked_sub(1).and_then(|k| ways[k]).or(before);
-            let [low, high] = [before.or(next[k]), next[k].or(before)].map(|way| way.unwrap_or(DVec3::Z));
+            let [low, high] = [before.or(above), above.or(before)].map(|way| way.unwrap_or(DVec3::Z));
             let bends: f64 = low.dot(high);
             let station = &mut self.stations[k];
             if bends >= SHARPEST {
