@@ -5,10 +5,11 @@
 //! of the time of the full one; a picture is drawn in at most two fifths; a life takes at most twice the time of
 //! growing and standing at every age.
 
+use super::turns::by_turns;
 use super::{Specimen, memory_backed};
 use criterion::{Criterion, Throughput};
 use phytomer::outputs::life::{Lives, Nearness};
-use phytomer::outputs::meshes::{MeshOptions, MeshWriter, Ply, Scene, Tolerance};
+use phytomer::outputs::meshes::{Joints, MeshOptions, MeshWriter, Ply, Scene, Tolerance};
 use phytomer::outputs::pictures::{Picture, Subject, draw};
 use phytomer::run::regrowth::Regrowth;
 use phytomer::run::seed_of;
@@ -53,6 +54,14 @@ impl Specimen {
             let mut file = File::create(&path).expect("a file");
             Ply.write(&scene, &scene.about(0), &mut file).expect("a write");
         };
+        let joined = |joints: Joints| {
+            let scene = Scene::new(&plant, age, &MeshOptions { joints, ..MeshOptions::default() });
+            let mut file = File::create(&path).expect("a file");
+            Ply.write(&scene, &scene.about(0), &mut file).expect("a write");
+        };
+        // Aim: at most four times the open mesh.
+        let name = format!("{}: welded beside open", self.name);
+        by_turns(&name, 9, || (), || joined(Joints::Welded), || joined(Joints::Open));
         let internodes = plant.nodes.len() as u64;
         let mut group = self.group(criterion, "mesh within 1 mm (internodes)", Throughput::Elements(internodes));
         group.bench_function("within 1 mm", |bencher| bencher.iter(|| write(Some(Tolerance::of(NEAR)))));

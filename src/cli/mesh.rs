@@ -5,6 +5,7 @@
 
 mod dressing;
 mod formats;
+mod joints;
 mod keyed;
 mod life;
 mod rig;
@@ -22,6 +23,7 @@ use anyhow::{Context, Result};
 use clap::Args;
 use dressing::Dressing;
 use formats::Format;
+use joints::Joining;
 use life::Growing;
 use phytomer::run::drawing::{check_size, options_of};
 use phytomer::run::picturing::{PicturedStand, pictured_plants_at, pictured_plot_at, plot_mesh};
@@ -50,6 +52,7 @@ Examples:
   phytomer mesh my_plant/scenario.toml --age 24 --wind 8 --rig 60 --out sway.glb
   phytomer mesh coffee --ages 1..48/4 --seconds 12 --out life.usdc
   phytomer mesh coffee --age 36 --tolerance 1mm --out print.stl
+  phytomer mesh willow --age 60 --joints welded --out sculpture.stl
   phytomer mesh abop/2.8a --age 4 -D lr=1.2 --out tall.ply
   phytomer mesh wp/quaking_aspen --levels 0-1 --out collision.ply
   phytomer mesh wp/quaking_aspen --range 120 --fov 30 --bark 0.5 --out far.glb
@@ -90,6 +93,8 @@ pub struct Mesh {
     #[arg(long, value_name = "METRES", allow_negative_numbers = true, value_parser = afar::metres, conflicts_with_all = ["triangles", "ages"])]
     range: Option<f64>,
     #[command(flatten)]
+    joining: Joining,
+    #[command(flatten)]
     dressing: Dressing,
     #[command(flatten)]
     fall: Fall,
@@ -107,6 +112,7 @@ impl Mesh {
         if let (Some(_), false) = (self.rig.asked(), format.holds("rig")) {
             return Err(format.holds_no("rig").into());
         }
+        self.joining.check(self.growing.is_asked() || self.rig.asked().is_some())?;
         colouring::whole("--age", self.age.as_slice(), self.dressing.colour_by.as_ref())?;
         let ages: Vec<Tick> = self.age.iter().map(|age| age.tick()).chain(self.growing.last()).collect();
         match Regrown::find(&self.name, &self.constants, &ages)? {
@@ -156,6 +162,7 @@ impl Mesh {
         let mut file = Destination::create(&self.out)?;
         let own = regrown.forms.get(regrown.trial.species_of_plant(self.plant)).cloned().unwrap_or_default();
         let mut options = options_of(self.sides, &own);
+        self.joining.dress(&mut options);
         let mut by = String::new();
         if self.dressing.colour_by.is_some() {
             let pictured = pictured_plants_at(&regrowth, &regrown.species(), &[self.plant], &[age])?;
@@ -173,6 +180,10 @@ impl Mesh {
                 return Ok(());
             }
             let scene = Scene::new(plant, age, &options);
+            if let Err(misuse) = self.joining.has_wood(&what, [&scene]) {
+                refused = Some(misuse);
+                return Ok(());
+            }
             let written = check_size(&scene).and_then(|()| format.write_plant(&scene, seed, &mut file));
             Ok(written.with_context(|| self.failing())?)
         })?;
@@ -180,7 +191,8 @@ impl Mesh {
             Some(misuse) => Err(misuse.into()),
             None => {
                 let seen = self.part.in_words() + &afar::in_words(options.seen.afar);
-                self.tell(file, &format!("{what}{seen}{}{by}", in_words(options.tolerance.as_ref())))
+                let joined = self.joining.in_words();
+                self.tell(file, &format!("{what}{seen}{}{joined}{by}", in_words(options.tolerance.as_ref())))
             }
         }
     }
@@ -223,10 +235,13 @@ impl Mesh {
             let what = format!("plot {plot} at tick {tick}");
             within = self.tolerance(&what, |tolerance| mesh.faces_within(tolerance))?;
             within.iter().for_each(|tolerance| mesh.within(*tolerance));
+            let scenes = mesh.bodies.iter().map(|body| Scene::new(body.plant, body.age, &body.options));
+            self.joining.has_wood(&what, &scenes.collect::<Vec<_>>())?;
             format.write_plot(&mesh, &mut file).with_context(|| self.failing())?;
         }
+        let joined = self.joining.in_words();
         let plants = amounts::of(pictured.stands.iter().map(|stand| stand.members.len() as u64).sum(), "plant");
-        self.tell(file, &format!("plot {plot} at tick {tick}, {plants}{}{by}", in_words(within.as_ref())))
+        self.tell(file, &format!("plot {plot} at tick {tick}, {plants}{}{joined}{by}", in_words(within.as_ref())))
     }
 
     /// States for each plant of a plot what of it is drawn.
@@ -236,6 +251,7 @@ impl Mesh {
             if let Some(species) = of.and_then(|of| regrown.species().get(of.species).copied()) {
                 body.options.seen = self.part.seen(species, body.age, self.range, false);
             }
+            self.joining.dress(&mut body.options);
             self.dressing.dress_all(&mut body.options);
         }
     }

@@ -20,8 +20,7 @@ pub type TakeAlone<'a> = dyn FnMut(&[Vertex], &[[u32; 3]]) + 'a;
 impl Scene<'_> {
     /// The number of blocks of the scene, for [`Scene::block`].
     pub fn blocks(&self) -> usize {
-        let tubes = self.reduced.as_ref().map_or(0, |reduced| reduced.blocks().len());
-        tubes + self.stem_places().div_ceil(BLOCK) + self.organ_blocks()
+        self.wood.blocks() + self.stem_places().div_ceil(BLOCK) + self.organ_blocks()
     }
 
     /// How many of its blocks are those of organs, which are the last and do not depend on how wood is drawn.
@@ -35,12 +34,10 @@ impl Scene<'_> {
     pub fn block(&self, block: usize, mesh: &mut Mesh) {
         mesh.vertices.clear();
         mesh.faces.clear();
-        let tubes = self.reduced.as_ref().map_or(&[][..], Reduced::blocks);
         let of_stems = self.stem_places().div_ceil(BLOCK);
-        if let (Some(tubes), Some(reduced)) = (tubes.get(block), &self.reduced) {
-            return self.append_tubes(reduced, tubes.clone(), mesh);
-        }
-        let block = block - tubes.len();
+        let Some(block) = block.checked_sub(self.wood.blocks()) else {
+            return self.append_wood(block, mesh);
+        };
         if block < of_stems {
             let Ok::<(), Infallible>(()) = self.each_stem(span(block, self.stem_places()), |node| {
                 let stem = self.stems().form(node);
@@ -57,8 +54,17 @@ impl Scene<'_> {
 
     /// The place of a block among those of internodes that are drawn by themselves; `None` for another block.
     pub(super) fn stem_block(&self, block: usize) -> Option<usize> {
-        let tubes = self.reduced.as_ref().map_or(0, |reduced| reduced.blocks().len());
-        block.checked_sub(tubes).filter(|block| *block < self.stem_places().div_ceil(BLOCK))
+        block.checked_sub(self.wood.blocks()).filter(|block| *block < self.stem_places().div_ceil(BLOCK))
+    }
+
+    fn append_wood(&self, block: usize, mesh: &mut Mesh) {
+        let tubes = self.wood.tubes().and_then(|reduced| Some((reduced, reduced.blocks().get(block)?)));
+        if let Some((reduced, tubes)) = tubes {
+            self.append_tubes(reduced, tubes.clone(), mesh);
+        } else if let Some(welded) = self.wood.welded() {
+            mesh.vertices.extend_from_slice(&welded.vertices);
+            mesh.faces.extend_from_slice(&welded.faces);
+        }
     }
 
     fn append_tubes(&self, reduced: &Reduced, tubes: Range<usize>, mesh: &mut Mesh) {

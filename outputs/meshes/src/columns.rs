@@ -5,6 +5,7 @@
 //! need not carry them while it is drawn. Formats ask for their names and for the numbers of each vertex. Absent: the
 //! ranges (`detail`), and the rates and phases, which are the growth model's.
 
+use super::attributes::{Attributes, NAMES};
 use super::chunk::Vertex;
 use super::detail::{Detail, level};
 use phytomer_sim::gusts::Swing;
@@ -28,13 +29,20 @@ pub struct Columns<'a> {
     until: Option<Vec<f32>>,
     /// How each axis sways.
     swings: Option<Arc<Vec<Swing>>>,
+    /// What shaders of any plant ask for.
+    attributes: Option<Attributes>,
 }
 
 impl<'a> Columns<'a> {
     /// The columns of a plant; `None` where there is none.
-    pub fn of(plant: &'a Plant, detail: Option<&Detail>, swings: Option<&Arc<Vec<Swing>>>) -> Option<Self> {
+    pub fn of(
+        plant: &'a Plant,
+        detail: Option<&Detail>,
+        swings: Option<&Arc<Vec<Swing>>>,
+        attributes: bool,
+    ) -> Option<Self> {
         let detail = detail.filter(|detail| detail.has_ranges());
-        if detail.is_none() && swings.is_none() {
+        if detail.is_none() && swings.is_none() && !attributes {
             return None;
         }
         let mut nodes = vec![NodeId::NONE; plant.components() as usize];
@@ -50,7 +58,9 @@ impl<'a> Columns<'a> {
             }
         }
         let names = detail.map(|_| UNTIL).into_iter().chain(swings.iter().flat_map(|_| OF_WIND));
-        Some(Self { plant, names: names.collect(), nodes, until, swings: swings.cloned() })
+        let names = names.chain(attributes.then_some(NAMES).into_iter().flatten());
+        let attributes = attributes.then(|| Attributes::of(plant));
+        Some(Self { plant, names: names.collect(), nodes, until, swings: swings.cloned(), attributes })
     }
 
     /// The range until which a component is drawn, metres; +∞ where no range is asked for.
@@ -72,7 +82,10 @@ impl<'a> Columns<'a> {
         let wind = self.swings.as_ref().map(|_| {
             "sway: b = sway_phase + sway_rate t in radians, at stem_place from 0 to 1 along a stem of the level (docs/range.md)"
         });
-        until.into_iter().chain(wind).map(str::to_owned).collect()
+        let attributes = self.attributes.as_ref().map(|_| {
+            "order, radius_m, path_m from the ground, phase from 0 to 1 by lineage: of a branch, or of an organ (docs/meshes.md)"
+        });
+        until.into_iter().chain(wind).chain(attributes).map(str::to_owned).collect()
     }
 
     /// Appends the numbers of a vertex, one a column.
@@ -84,6 +97,17 @@ impl<'a> Columns<'a> {
         if let Some(swings) = &self.swings {
             out.extend(self.wind(swings, component, vertex));
         }
+        if let Some(attributes) = &self.attributes {
+            out.extend(self.attributes(attributes, component, vertex));
+        }
+    }
+
+    fn attributes(&self, attributes: &Attributes, component: usize, vertex: &Vertex) -> [f32; NAMES.len()] {
+        let node = self.nodes.get(component).copied().unwrap_or(NodeId::NONE);
+        let Some(node) = node.some() else { return [0.0; NAMES.len()] };
+        let (frame, place) = (self.plant.frames.at(node), vertex.position());
+        let along: f32 = (0..3).map(|k| (place[k] - frame.base[k]) * frame.heading[k]).sum();
+        attributes.at(self.plant, (component, node), (along, place))
     }
 
     fn wind(&self, swings: &[Swing], component: usize, vertex: &Vertex) -> [f32; OF_WIND.len()] {

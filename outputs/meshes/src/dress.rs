@@ -45,6 +45,11 @@ impl Bark {
         Self { metres, around: around.collect(), along }
     }
 
+    /// The length that the texture covers, metres.
+    pub fn metres(&self) -> f32 {
+        self.metres
+    }
+
     /// Writes the texture coordinates of the sides of an internode, which have 0 at its base and 1 at its tip.
     pub fn dress(&self, plant: &Plant, node: NodeId, sides: &mut [Vertex]) {
         let length = plant.posed_length(node);

@@ -7,6 +7,7 @@
 //! one file each and one line here; which format is written is the caller's choice. Vertices are not shared between
 //! components. Absent: buds, which have no form, and bending, which is part of the pose.
 
+mod attributes;
 mod blocks;
 mod boxes;
 mod budget;
@@ -41,6 +42,8 @@ mod tests_range;
 #[cfg(test)]
 mod tests_stated;
 mod tube;
+mod welded;
+mod wood;
 
 pub use blocks::TakeAlone;
 pub use boxes::Boxing;
@@ -127,6 +130,29 @@ impl Tolerance {
     }
 }
 
+/// How internodes hang together.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Joints {
+    /// Each tube ends on its own, and those that meet go through one another.
+    #[default]
+    Open,
+    /// As open, and the foot of each branch widens into its bearer.
+    Collar,
+    /// All wood is one closed surface, a sphere by the way in which it hangs together.
+    Welded,
+}
+
+impl Joints {
+    /// What a file says of them; nothing of open ones.
+    pub fn in_words(self) -> Option<&'static str> {
+        match self {
+            Self::Open => None,
+            Self::Collar => Some("joints collar: the foot of each branch widens into its bearer"),
+            Self::Welded => Some("joints welded: the wood is one closed surface, t in metres from the ground"),
+        }
+    }
+}
+
 /// Options for drawing plants.
 #[derive(Debug, Clone)]
 pub struct MeshOptions {
@@ -134,6 +160,8 @@ pub struct MeshOptions {
     pub sides: u8,
     /// How near the wood is drawn; `None`: each internode by itself.
     pub tolerance: Option<Tolerance>,
+    /// How internodes hang together.
+    pub joints: Joints,
     /// For each kind, by the number of [`Kind`], whether it is drawn.
     pub kinds: [bool; Kind::ALL.len()],
     /// The mesh files that the species names as forms; empty where it names none.
@@ -148,6 +176,8 @@ pub struct MeshOptions {
     pub colours: Option<Arc<Vec<[u8; 3]>>>,
     /// How each axis sways, for vertices that tell it; `None`: they do not.
     pub swings: Option<Arc<Vec<Swing>>>,
+    /// Whether vertices tell order, radius, path length and phase.
+    pub attributes: bool,
 }
 
 impl MeshOptions {
@@ -172,6 +202,7 @@ impl Default for MeshOptions {
         Self {
             sides: 8,
             tolerance: None,
+            joints: Joints::Open,
             kinds,
             own: Arc::default(),
             seen: Seen::default(),
@@ -179,6 +210,7 @@ impl Default for MeshOptions {
             crown_normals: false,
             colours: None,
             swings: None,
+            attributes: false,
         }
     }
 }

@@ -111,6 +111,7 @@ impl PlotMesh<'_> {
         let drawing = self.drawing()?;
         let mut comments = drawing.notes();
         comments.insert(1, place_comment(self.place));
+        comments.extend(self.bodies.first().and_then(|body| body.options.joints.in_words()).map(str::to_owned));
         out.write_all(&header_of(drawing.tolerance(), comments, drawing.counts())?)?;
         drawing.vertices(&mut |vertices| out.write_all(bytemuck::cast_slice(vertices)))?;
         drawing.faces(&mut |faces| out.write_all(bytemuck::cast_slice(faces)))

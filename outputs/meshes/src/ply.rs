@@ -30,7 +30,8 @@ impl MeshWriter for Ply {
 
     fn write(&self, scene: &Scene, about: &About, out: &mut (dyn Write + Send)) -> io::Result<()> {
         let counts = scene.counts();
-        let comments = vec![about.in_words(), place_comment(about.place)];
+        let mut comments = vec![about.in_words(), place_comment(about.place)];
+        comments.extend(scene.options().joints.in_words().map(str::to_owned));
         if let Some(columns) = scene.columns() {
             return write_with(columns, scene, comments, out);
         }

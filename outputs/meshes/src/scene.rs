@@ -12,9 +12,9 @@ use super::detail::{Detail, Primitive};
 use super::dress::{Crown, is_leaf};
 use super::forms::{FormMesh, Placement};
 use super::outline::{self, OrganForm, Outlines, OwnForm, Shown};
-use super::reduced::Reduced;
 use super::stem::Stems;
-use super::{About, MeshOptions, Tolerance, colour};
+use super::wood::Wood;
+use super::{About, Joints, MeshOptions, Tolerance, colour};
 use phytomer_looks::Paints;
 use phytomer_sim::clock::Tick;
 use phytomer_sim::plant::{NodeId, OrganId, Plant};
@@ -34,8 +34,8 @@ pub struct Scene<'a> {
     options: MeshOptions,
     paints: &'a Paints,
     stems: Stems<'a>,
-    /// The tubes along several internodes, where the mesh has a tolerance.
-    pub(super) reduced: Option<Reduced>,
+    /// The wood that is not drawn internode by internode.
+    pub(super) wood: Wood,
     /// The triangles of organs that state an outline.
     outlines: Outlines,
     /// The crown out of which leaf normals point, where that is asked for.
@@ -69,11 +69,11 @@ impl<'a> Scene<'a> {
     /// between two ticks `age` is the later one.
     pub fn new(plant: &'a Plant, age: Tick, options: &MeshOptions) -> Self {
         let stems = Stems::of(plant, age, options);
-        let reduced = options.tolerance.as_ref().map(|tolerance| Reduced::of(&stems, tolerance));
+        let wood = Wood::of(&stems, options);
         let paints = Paints::of(&plant.habit);
-        let columns = Columns::of(plant, stems.detail.as_ref(), options.swings.as_ref());
+        let columns = Columns::of(plant, stems.detail.as_ref(), options.swings.as_ref(), options.attributes);
         let (options, outlines) = (options.clone(), Outlines::of(plant));
-        let mut scene = Self { plant, age, options, paints, stems, reduced, outlines, crown: None, columns };
+        let mut scene = Self { plant, age, options, paints, stems, wood, outlines, crown: None, columns };
         scene.crown = scene.options.crown_normals.then(|| scene.crown()).flatten();
         scene
     }
@@ -125,7 +125,7 @@ impl<'a> Scene<'a> {
 
     /// The size of the mesh, by one scan of births and deaths.
     pub fn counts(&self) -> Counts {
-        let mut counts = self.reduced.as_ref().map(Reduced::counts).unwrap_or_default();
+        let mut counts = self.wood.counts();
         let mut count = |vertices: usize, faces: usize| {
             counts.components += 1;
             counts.vertices += vertices as u64;
@@ -148,15 +148,7 @@ impl<'a> Scene<'a> {
     /// # Errors
     /// The errors of `sink`.
     pub fn vertices(&self, chunk: &mut Chunk, sink: &mut Sink) -> io::Result<()> {
-        if let Some(reduced) = &self.reduced {
-            let mut places = Vec::new();
-            for tube in 0..reduced.tubes() {
-                reduced.each_part(&self.stems, tube, &mut places, &mut |vertices, write| {
-                    write(chunk.room(vertices, sink)?);
-                    Ok(())
-                })?;
-            }
-        }
+        self.wood.vertices(&self.stems, chunk, sink)?;
         self.each_stem(0..self.stem_places(), |node| {
             let stem = self.stems.form(node);
             self.stems.write(stem, node, chunk.room(stem.vertices(), sink)?);
@@ -175,16 +167,7 @@ impl<'a> Scene<'a> {
     /// # Errors
     /// The errors of `sink`.
     pub fn faces(&self, chunk: &mut Chunk, sink: &mut Sink) -> io::Result<()> {
-        let mut first = 0;
-        if let Some(reduced) = &self.reduced {
-            for tube in 0..reduced.tubes() {
-                reduced.each_skin(tube, first, &mut |skin| {
-                    skin.write(chunk.room(skin.faces(), sink)?);
-                    Ok(())
-                })?;
-                first += reduced.vertices(tube) as u32;
-            }
-        }
+        let mut first = self.wood.faces(chunk, sink)?;
         self.each_stem(0..self.stem_places(), |node| {
             let stem = self.stems.form(node);
             put_faces(first, stem.faces(), chunk, sink)?;
@@ -201,7 +184,7 @@ impl<'a> Scene<'a> {
 
     /// The number of places of [`Scene::each_stem`].
     pub(super) fn stem_places(&self) -> usize {
-        self.reduced.as_ref().map_or(self.plant.nodes.len(), |reduced| reduced.apart().len())
+        self.wood.apart().map_or(self.plant.nodes.len(), <[NodeId]>::len)
     }
 
     /// Calls `draw` with the internodes of some places that are drawn by themselves.
@@ -211,10 +194,15 @@ impl<'a> Scene<'a> {
         places: Range<usize>,
         draw: impl FnMut(NodeId) -> Result<(), E>,
     ) -> Result<(), E> {
-        match &self.reduced {
-            Some(reduced) => reduced.apart()[places].iter().copied().try_for_each(draw),
+        match self.wood.apart() {
+            Some(apart) => apart[places].iter().copied().try_for_each(draw),
             None => self.stems.drawn_of(places).try_for_each(draw),
         }
+    }
+
+    /// Whether its wood should be one welded surface, and none of it is.
+    pub fn welds_nothing(&self) -> bool {
+        self.options.joints == Joints::Welded && self.wood.counts().components == 0
     }
 
     /// The plant.

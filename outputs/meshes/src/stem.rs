@@ -158,6 +158,16 @@ impl<'a> Stems<'a> {
         place.unwrap_or(self.forms.len() - 1)
     }
 
+    /// The cross sections of the plant, by their places.
+    pub(super) fn sections(&self) -> impl Iterator<Item = &phytomer_looks::Section> {
+        self.paints.sections().iter()
+    }
+
+    /// The place of the cross section that an internode is drawn with.
+    pub(super) fn section_of(&self, node: NodeId) -> Option<usize> {
+        self.place_of_form(node).checked_sub(self.forms.len())
+    }
+
     /// Writes the vertices of an internode; `out` must have as many places as its form has vertices.
     #[inline]
     pub(super) fn write(&self, stem: &Drawn, node: NodeId, out: &mut [Vertex]) {

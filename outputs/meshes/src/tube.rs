@@ -49,6 +49,11 @@ impl Tube {
         Self { corners: (0..=sides).map(corner).collect(), reach, faces: faces(sides) }
     }
 
+    /// The number of its sides.
+    pub fn sides(&self) -> u16 {
+        self.corners.len() as u16 - 1
+    }
+
     /// The number of vertices of a tube.
     pub fn vertices(&self) -> usize {
         4 * self.corners.len() - 2

@@ -34,7 +34,7 @@ pub fn write_plot(asked: &Asked, plot: &PlotMesh, out: &mut dyn Patched) -> io::
 /// Whether organs are drawn as no instance shows them: a part of them, as points, with normals or columns of their own.
 fn is_apart(options: &MeshOptions) -> bool {
     let far = options.seen.afar.is_some_and(|afar| afar.metres.is_some());
-    options.seen.levels.is_some() || far || options.crown_normals || options.swings.is_some()
+    options.seen.levels.is_some() || far || options.crown_normals || options.swings.is_some() || options.attributes
 }
 
 /// Writes the wood and the organs of a plant as two meshes, with all that their vertices tell.

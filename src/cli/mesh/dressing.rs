@@ -30,6 +30,10 @@ pub struct Dressing {
     /// phases of the stem, for a shader that moves it.
     #[arg(long)]
     wind_data: bool,
+    /// Tell for each vertex of any plant its order, its radius, the length of the path to it from the ground, and a
+    /// phase from 0 to 1 that is that of its branch or of its organ, for shaders.
+    #[arg(long)]
+    attributes: bool,
     /// Colour the vertices of a PLY file by a column of `records`, by `species`, or of a --plot by the `light` of
     /// leaves and buds; amounts go from violet over green to yellow.
     #[arg(long, value_name = "COLUMN", hide_possible_values = true)]
@@ -54,7 +58,12 @@ impl Dressing {
     /// The option.
     pub fn check(&self, format: Format, plot: bool, life: bool, regrown: &Regrown) -> Result<(), Misuse> {
         let crown = self.leaf_normals == LeafNormals::Crown;
-        let used = [("--bark", self.bark.is_some()), ("--leaf-normals crown", crown), ("--wind-data", self.wind_data)];
+        let used = [
+            ("--bark", self.bark.is_some()),
+            ("--leaf-normals crown", crown),
+            ("--wind-data", self.wind_data),
+            ("--attributes", self.attributes),
+        ];
         if self.colour_by.is_some() && (format != Format::Ply || life) {
             return Err(Misuse("--colour-by: this is for a PLY file (.ply) of one age".to_owned()));
         }
@@ -65,8 +74,9 @@ impl Dressing {
         if life {
             return Err(Misuse(format!("{option}: this is for a plant at one age; leave out --ages")));
         }
-        if self.wind_data && plot {
-            return Err(Misuse("--wind-data: this is for a single plant, by --plant".to_owned()));
+        let of_one = [("--wind-data", self.wind_data), ("--attributes", self.attributes)];
+        if let Some((option, _)) = of_one.into_iter().find(|(_, used)| *used && plot) {
+            return Err(Misuse(format!("{option}: this is for a single plant, by --plant")));
         }
         let still = regrown.models().into_iter().zip(regrown.trial.cohorts()).find(|(model, _)| !model.sways());
         match still.filter(|_| self.wind_data) {
@@ -88,7 +98,8 @@ impl Dressing {
     /// The option that gives each leaf vertices of its own, which instances of one leaf have not.
     pub fn of_each_leaf(&self) -> Option<&'static str> {
         let crown = self.leaf_normals == LeafNormals::Crown;
-        crown.then_some("--leaf-normals crown").or(self.wind_data.then_some("--wind-data"))
+        let wind = self.wind_data.then_some("--wind-data").or(self.attributes.then_some("--attributes"));
+        crown.then_some("--leaf-normals crown").or(wind)
     }
 
     /// States them for a plant of a model.
@@ -103,6 +114,7 @@ impl Dressing {
     /// States what plants of any model have.
     pub fn dress_all(&self, options: &mut MeshOptions) {
         options.bark_m = self.bark.map(|metres| metres as f32);
+        options.attributes = self.attributes;
         options.crown_normals = self.leaf_normals == LeafNormals::Crown;
     }
 }
