@@ -19,9 +19,11 @@ mod drawing;
 mod dress;
 mod file;
 mod forms;
+mod lamina;
 #[cfg(test)]
 mod measure;
 mod model;
+mod near;
 mod outline;
 mod palette;
 mod patched;
@@ -148,6 +150,8 @@ pub struct MeshOptions {
     pub colours: Option<Arc<Vec<[u8; 3]>>>,
     /// How each axis sways, for vertices that tell it; `None`: they do not.
     pub swings: Option<Arc<Vec<Swing>>>,
+    /// How finely organs are drawn, from 0, a few polygons, to [`phytomer_looks::MOST_DETAIL`].
+    pub detail: u8,
 }
 
 impl MeshOptions {
@@ -156,6 +160,14 @@ impl MeshOptions {
     fn colour_of(&self, component: u32) -> Option<[u8; 4]> {
         let [red, green, blue] = *self.colours.as_ref()?.get(component as usize)?;
         Some([red, green, blue, 255])
+    }
+
+    /// Writes an organ, with the tints of its parts from near over its colours, unless colours stand for values.
+    fn write(&self, form: &FormMesh, place: &forms::Placement, tags: &[Tag; 2], out: &mut [Vertex]) {
+        form.write(place, tags, out);
+        if self.detail > 0 && self.colours.is_none() {
+            form.tint(out);
+        }
     }
 
     /// The shape of a form.
@@ -179,6 +191,7 @@ impl Default for MeshOptions {
             crown_normals: false,
             colours: None,
             swings: None,
+            detail: 0,
         }
     }
 }
