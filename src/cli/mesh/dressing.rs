@@ -30,6 +30,9 @@ pub struct Dressing {
     /// phases of the stem, for a shader that moves it.
     #[arg(long)]
     wind_data: bool,
+    /// How finely leaves, flowers and fruits are drawn: 0, a few polygons, to 3, for close-ups.
+    #[arg(long, value_name = "0…3", default_value_t = 0, value_parser = clap::value_parser!(u8).range(0..=3))]
+    detail: u8,
     /// Colour the vertices of a PLY file by a column of `records`, by `species`, or of a --plot by the `light` of
     /// leaves and buds; amounts go from violet over green to yellow.
     #[arg(long, value_name = "COLUMN", hide_possible_values = true)]
@@ -57,6 +60,12 @@ impl Dressing {
         let used = [("--bark", self.bark.is_some()), ("--leaf-normals crown", crown), ("--wind-data", self.wind_data)];
         if self.colour_by.is_some() && (format != Format::Ply || life) {
             return Err(Misuse("--colour-by: this is for a PLY file (.ply) of one age".to_owned()));
+        }
+        if self.detail > 0 && (life || matches!(format, Format::Usd(..))) {
+            let found = if life { "a life" } else { "USD" };
+            return Err(Misuse(format!(
+                "--detail: {found} shows instances of forms; PLY, GLB and STL of one age have it"
+            )));
         }
         let Some((option, _)) = used.into_iter().find(|(_, used)| *used) else { return Ok(()) };
         if format == Format::Stl {
@@ -88,6 +97,9 @@ impl Dressing {
     /// The option that gives each leaf vertices of its own, which instances of one leaf have not.
     pub fn of_each_leaf(&self) -> Option<&'static str> {
         let crown = self.leaf_normals == LeafNormals::Crown;
+        if self.detail > 0 {
+            return Some("--detail");
+        }
         crown.then_some("--leaf-normals crown").or(self.wind_data.then_some("--wind-data"))
     }
 
@@ -104,6 +116,7 @@ impl Dressing {
     pub fn dress_all(&self, options: &mut MeshOptions) {
         options.bark_m = self.bark.map(|metres| metres as f32);
         options.crown_normals = self.leaf_normals == LeafNormals::Crown;
+        options.detail = self.detail;
     }
 }
 
