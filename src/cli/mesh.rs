@@ -54,6 +54,7 @@ Examples:
   phytomer mesh coffee --age 36 --tolerance 1mm --out print.stl
   phytomer mesh willow --age 60 --joints welded --out sculpture.stl
   phytomer mesh abop/2.8a --age 4 -D lr=1.2 --out tall.ply
+  phytomer mesh monocarp --age 34 --detail 3 --out sunflower.glb
   phytomer mesh wp/quaking_aspen --levels 0-1 --out collision.ply
   phytomer mesh wp/quaking_aspen --range 120 --fov 30 --bark 0.5 --out far.glb
   phytomer mesh wp/quaking_aspen --wind 5 --gust 3 --time 0.4 --out swaying.ply

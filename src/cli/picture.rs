@@ -4,6 +4,7 @@
 //! With `--plot` all plants of a plot stand in their places, at each tick.
 //! Absent: drawing, which is `phytomer_outputs::pictures`'.
 
+mod focus;
 mod measured;
 
 use super::afar::{self, Part};
@@ -19,9 +20,9 @@ use clap::{Args, ValueEnum};
 use phytomer::run::filming::{Filming, Scene};
 use phytomer::run::picturing::{Pictured, PicturedStand, pictured_plants_at, pictured_plot_at};
 use phytomer_outputs::Destination;
-use phytomer_outputs::colouring::{ColouringError, colour_columns};
+use phytomer_outputs::colouring::colour_columns;
 use phytomer_outputs::pictures::{
-    Canvas, Compression, MOST_SUBJECTS, Picture as Style, View, draw_stands, sheet_of_stands, write_png,
+    Canvas, Compression, MOST_SUBJECTS, Picture as Style, View, Wanted, draw_stands, sheet_of_stands, write_png,
 };
 use phytomer_sim::Tick;
 use phytomer_sim::between::Moment;
@@ -46,6 +47,7 @@ Examples:
   phytomer picture coffee --age 24 --transparent --no-caption --sun 200,30 --out cut-out.png
   phytomer picture under_a_roof --plot --ages 3,6,12 --out plot.png
   phytomer picture abop/2.8a --age 5 -D lr=1.2 --out tall.png
+  phytomer picture monocarp --age 31 --focus flower --detail 3 --out head.png
   phytomer picture wp/quaking_aspen --range 30,120,600 --out ranges.png
   phytomer picture wp/quaking_aspen --levels 0 --wind 5 --gust 3 --time 0.4 --out trunk.png
 
@@ -104,6 +106,14 @@ pub struct Picture {
     /// shoulder of whoever looks if not given.
     #[arg(long, value_name = "AZIMUTH,ELEVATION", allow_negative_numbers = true, value_parser = sun)]
     sun: Option<[f32; 2]>,
+    /// How finely leaves, flowers and fruits are drawn: 0, a few polygons, to 3, for close-ups. An organ that is small
+    /// in the picture is drawn with less.
+    #[arg(long, value_name = "0…3", default_value_t = 0, value_parser = clap::value_parser!(u8).range(0..=3))]
+    detail: u8,
+    /// Fill the picture with one organ of the first plant: the largest `leaf`, `flower` or `fruit`, or a component by
+    /// its number.
+    #[arg(long, value_name = "leaf|flower|fruit|COMPONENT", value_parser = focus::wanted, conflicts_with_all = ["framed_for", "view"])]
+    focus: Option<Wanted>,
     /// Sides of the tube that each internode is drawn as. If not given, wood is drawn along its axes, as round as half
     /// a pixel asks.
     #[arg(long, value_parser = clap::value_parser!(u8).range(3..=64))]
@@ -277,11 +287,12 @@ impl Picture {
         Ok(())
     }
 
-    fn draw(&self, pictured: &Pictured, regrown: &Regrown) -> std::result::Result<Canvas, ColouringError> {
+    fn draw(&self, pictured: &Pictured, regrown: &Regrown) -> Result<Canvas> {
         let view = self.view();
         let colour_by =
             self.colour_by.as_ref().map(|column| colouring::values(column, pictured, regrown)).transpose()?;
-        let style = Style { view: view.unwrap_or(View::Front), colour_by, ..self.style() };
+        let focus = self.focus.map(|wanted| focus::of(wanted, pictured, regrown, self.detail)).transpose()?;
+        let style = Style { view: view.unwrap_or(View::Front), colour_by, focus, ..self.style() };
         let stands = pictured.stands(&regrown.forms);
         let draw = if view.is_some() { draw_stands } else { sheet_of_stands };
         Ok(draw(&stands, &pictured.title, &style))
@@ -309,6 +320,7 @@ impl Picture {
             caption: !self.no_caption,
             sun: self.sun.map(|sun| sun.map(f32::to_radians)),
             sides: self.sides,
+            detail: self.detail,
             ..Style::default()
         }
     }

@@ -8,12 +8,14 @@
 //! states forms and colours (`phytomer_models`).
 
 mod form;
+mod near;
 mod paint;
 pub mod polygon;
 mod section;
 mod surface;
 
 pub use form::{FormName, own_form, place_of_own};
+pub use near::{Apex, Base, Blade, Capitulum, Flower, GOLDEN_DEG, MOST_DETAIL, Margin, Near, Rim, Unsound};
 pub use paint::{Bark, Colour, InternodePaint, OrganPaint, Paints};
 pub use section::Section;
 pub use surface::{Surface, SurfacePoint};

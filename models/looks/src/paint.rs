@@ -5,6 +5,7 @@
 //! that is not stated is `None`. Absent: the colours that replace it (`phytomer_meshes::palette`), and how one colour
 //! turns into the next (`phytomer_meshes::colour`).
 
+use super::near::Near;
 use super::section::Section;
 use super::surface::Surface;
 use phytomer_sim::clock::Tick;
@@ -56,6 +57,8 @@ pub struct OrganPaint {
     pub stalk: Option<Colour>,
     /// The ticks over which a leaf turns before a seasonal fall; 0: it does not.
     pub turns_in: Tick,
+    /// How it is drawn from near, by its place among those of the paints; `None`: as its form is.
+    pub near: Option<u16>,
 }
 
 /// The paints of a species, which its looks name by number.
@@ -65,6 +68,7 @@ pub struct Paints {
     organs: Vec<OrganPaint>,
     surfaces: Vec<Surface>,
     sections: Vec<Section>,
+    nears: Vec<Near>,
 }
 
 impl Paints {
@@ -90,6 +94,17 @@ impl Paints {
     #[inline]
     pub fn surface(&self, place: usize) -> Option<&Surface> {
         self.surfaces.get(place)
+    }
+
+    /// Adds how organs are drawn from near. Returns its place, which the paints of organs name.
+    pub fn add_near(&mut self, near: Near) -> Option<u16> {
+        self.nears.push(near);
+        u16::try_from(self.nears.len() - 1).ok()
+    }
+
+    /// How organs are drawn from near, in their places.
+    pub fn nears(&self) -> &[Near] {
+        &self.nears
     }
 
     /// Adds a cross section. Returns its place, which internodes state.
@@ -118,7 +133,7 @@ impl Paints {
     #[inline]
     pub fn organ(&self, number: PaintNumber) -> &OrganPaint {
         static SILENT: OrganPaint =
-            OrganPaint { young: None, turning: None, old: None, autumn: None, stalk: None, turns_in: 0 };
+            OrganPaint { young: None, turning: None, old: None, autumn: None, stalk: None, turns_in: 0, near: None };
         number.place().and_then(|place| self.organs.get(place)).unwrap_or(&SILENT)
     }
 
@@ -129,8 +144,13 @@ impl Paints {
 
     /// The paints that a habit carries; an empty set where it carries none.
     pub fn of(habit: &Habit) -> &Self {
-        static NONE: Paints =
-            Paints { internodes: Vec::new(), organs: Vec::new(), surfaces: Vec::new(), sections: Vec::new() };
+        static NONE: Paints = Paints {
+            internodes: Vec::new(),
+            organs: Vec::new(),
+            surfaces: Vec::new(),
+            sections: Vec::new(),
+            nears: Vec::new(),
+        };
         habit.for_drawing.get().unwrap_or(&NONE)
     }
 }

@@ -8,6 +8,7 @@ use super::chunk::{Face, Vertex};
 use super::reduced::Reduced;
 use super::scene::Scene;
 use bytemuck::Zeroable;
+use phytomer_sim::plant::OrganId;
 use std::convert::Infallible;
 use std::ops::Range;
 
@@ -21,6 +22,15 @@ impl Scene<'_> {
     /// The number of blocks of the scene, for [`Scene::block`].
     pub fn blocks(&self) -> usize {
         self.wood.blocks() + self.stem_places().div_ceil(BLOCK) + self.organ_blocks()
+    }
+
+    /// The mesh of an organ alone.
+    pub fn mesh_of(&self, organ: OrganId) -> Mesh {
+        let form = self.form(organ);
+        let mut vertices = vec![Vertex::zeroed(); form.vertices()];
+        let faces = form.faces().iter().map(|face| Face::new(*face)).collect();
+        self.write_organ(form, organ, &mut vertices);
+        Mesh { vertices, faces }
     }
 
     /// How many of its blocks are those of organs, which are the last and do not depend on how wood is drawn.

@@ -111,6 +111,15 @@ impl Vertex {
         self.normal = normal.map(f32::to_le_bytes);
     }
 
+    /// Lays a colour over its own, by a share of 255.
+    pub fn lay_over(&mut self, [red, green, blue, share]: [u8; 4]) {
+        let colour = &mut self.texture_and_tag.colour;
+        for (own, over) in colour.iter_mut().zip([red, green, blue]) {
+            let share = u32::from(share);
+            *own = ((u32::from(*own) * (255 - share) + u32::from(over) * share + 127) / 255) as u8;
+        }
+    }
+
     /// Gives it other texture coordinates.
     pub fn set_texture(&mut self, texture: [f32; 2]) {
         self.texture_and_tag.texture = texture.map(f32::to_le_bytes);

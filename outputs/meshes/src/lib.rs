@@ -20,9 +20,11 @@ mod drawing;
 mod dress;
 mod file;
 mod forms;
+mod lamina;
 #[cfg(test)]
 mod measure;
 mod model;
+mod near;
 mod outline;
 mod palette;
 mod patched;
@@ -178,6 +180,8 @@ pub struct MeshOptions {
     pub swings: Option<Arc<Vec<Swing>>>,
     /// Whether vertices tell order, radius, path length and phase.
     pub attributes: bool,
+    /// How finely organs are drawn, from 0, a few polygons, to [`phytomer_looks::MOST_DETAIL`].
+    pub detail: u8,
 }
 
 impl MeshOptions {
@@ -186,6 +190,14 @@ impl MeshOptions {
     fn colour_of(&self, component: u32) -> Option<[u8; 4]> {
         let [red, green, blue] = *self.colours.as_ref()?.get(component as usize)?;
         Some([red, green, blue, 255])
+    }
+
+    /// Writes an organ, with the tints of its parts from near over its colours, unless colours stand for values.
+    fn write(&self, form: &FormMesh, place: &forms::Placement, tags: &[Tag; 2], out: &mut [Vertex]) {
+        form.write(place, tags, out);
+        if self.detail > 0 && self.colours.is_none() {
+            form.tint(out);
+        }
     }
 
     /// The shape of a form.
@@ -211,6 +223,7 @@ impl Default for MeshOptions {
             colours: None,
             swings: None,
             attributes: false,
+            detail: 0,
         }
     }
 }

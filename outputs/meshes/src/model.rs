@@ -83,7 +83,10 @@ impl Model {
         let tag = tag(colour);
         match stem {
             Drawn::Tube(tube, _) => narrowing(of_tube(tube, &unit, &tag)),
-            Drawn::Strip => narrowing(made(Strip::VERTICES, &Strip::FACES, |out| Strip::write(&unit, &tag, out))),
+            // Instances know no neighbours: a piece of a blade is a strip to them.
+            Drawn::Strip | Drawn::Lamina(_) => {
+                narrowing(made(Strip::VERTICES, &Strip::FACES, |out| Strip::write(&unit, &tag, out)))
+            }
             Drawn::Prism(prism) => narrowing(of_prism(prism, &unit, &tag)),
             Drawn::Form(shape) => Self::of_shape(shape, 1.0, [colour; 2]),
         }

@@ -11,6 +11,7 @@ use super::columns::Columns;
 use super::detail::{Detail, Primitive};
 use super::dress::{Crown, is_leaf};
 use super::forms::{FormMesh, Placement};
+use super::near::Nears;
 use super::outline::{self, OrganForm, Outlines, OwnForm, Shown};
 use super::stem::Stems;
 use super::wood::Wood;
@@ -42,6 +43,8 @@ pub struct Scene<'a> {
     crown: Option<Crown>,
     /// What vertices tell beside the properties of every mesh.
     columns: Option<Columns<'a>>,
+    /// The forms that the species states for organs seen from near.
+    nears: Nears,
 }
 
 /// An organ as it is drawn: where, how large and in what colours.
@@ -72,8 +75,9 @@ impl<'a> Scene<'a> {
         let wood = Wood::of(&stems, options);
         let paints = Paints::of(&plant.habit);
         let columns = Columns::of(plant, stems.detail.as_ref(), options.swings.as_ref(), options.attributes);
-        let (options, outlines) = (options.clone(), Outlines::of(plant));
-        let mut scene = Self { plant, age, options, paints, stems, wood, outlines, crown: None, columns };
+        let (nears, options) = (Nears::of(paints, options.detail), options.clone());
+        let outlines = Outlines::of(plant);
+        let mut scene = Self { plant, age, options, paints, stems, wood, outlines, crown: None, columns, nears };
         scene.crown = scene.options.crown_normals.then(|| scene.crown()).flatten();
         scene
     }
@@ -288,7 +292,8 @@ impl<'a> Scene<'a> {
     #[inline]
     fn shape_of(&self, organ: OrganId) -> &FormMesh {
         let (organs, place) = (&self.plant.organs, organ.index());
-        let shape = self.options.shape(organs.form[place]);
+        let near = self.nears.form((self.plant, self.age), organ, &self.options);
+        let shape = near.unwrap_or_else(|| self.options.shape(organs.form[place]));
         match self.options.tolerance.filter(|tolerance| tolerance.organs) {
             Some(tolerance) => shape.within(tolerance.distance, [organs.length[place], organs.width[place]]),
             None => shape,
@@ -299,7 +304,9 @@ impl<'a> Scene<'a> {
     pub(super) fn write_organ(&self, form: Shown<'_>, organ: OrganId, out: &mut [Vertex]) {
         let tags = self.organ_tags(organ);
         match form {
-            Shown::Whole(OrganForm::Shape(shape)) => shape.write(&self.placement(organ, shape), &tags, out),
+            Shown::Whole(OrganForm::Shape(shape)) => {
+                self.options.write(shape, &self.placement(organ, shape), &tags, out)
+            }
             Shown::Whole(OrganForm::Outline(corners, faces)) => {
                 let (frame, share) = (self.organ_base(organ), self.plant.expanded(organ, self.age));
                 outline::write((corners, faces), &frame, share, &tags[0], out);

@@ -10,6 +10,7 @@ use super::colour;
 use super::detail::{Detail, Primitive};
 use super::dress::Bark;
 use super::forms::{FormMesh, Placement};
+use super::lamina::{Lamina, Piece};
 use super::section::{Prism, Ring};
 use super::tube::{Frustum, Strip, Tube};
 use phytomer_looks::Paints;
@@ -28,7 +29,7 @@ pub struct Stems<'a> {
     forms: Vec<Drawn>,
     /// The forms of internodes with a cross section of their own, in the places of the sections.
     sections: Vec<Drawn>,
-    /// The next node of each node's axis; empty where no internode has a section.
+    /// The next node of each node's axis; empty where no internode has a section or is a piece of a smooth blade.
     next: Vec<NodeId>,
     /// What of the plant is drawn; `None`: all.
     pub(super) detail: Option<Detail>,
@@ -50,6 +51,8 @@ pub enum Drawn {
     Tube(Tube, bool),
     /// A plane strip.
     Strip,
+    /// A piece of a smooth blade.
+    Lamina(Lamina),
     /// A tube with a cross section of its own.
     Prism(Prism),
     /// A form of an organ, with the internode's length and diameter.
@@ -61,6 +64,7 @@ impl Drawn {
         let paint = paints.internode(look.paint);
         match (paint.form, look.shape) {
             (Some(form), _) => Self::Form(options.shape(form).clone()),
+            (None, Stem::Blade) if options.detail > 0 => Self::Lamina(Lamina::new(options.detail)),
             (None, Stem::Blade) => Self::Strip,
             (None, Stem::Cylinder | Stem::Cone) => {
                 Self::Tube(Tube::new(paint.sides.unwrap_or(options.sides)), paint.sides.is_some())
@@ -74,6 +78,7 @@ impl Drawn {
         match self {
             Self::Tube(tube, _) => tube.vertices(),
             Self::Strip => Strip::VERTICES,
+            Self::Lamina(lamina) => lamina.vertices(),
             Self::Prism(prism) => prism.vertices(),
             Self::Form(shape) => shape.points.len(),
         }
@@ -84,7 +89,7 @@ impl Drawn {
         match self {
             Self::Tube(tube, _) => tube.around(),
             Self::Prism(prism) => prism.around(),
-            Self::Strip | Self::Form(_) => 0,
+            Self::Strip | Self::Lamina(_) | Self::Form(_) => 0,
         }
     }
 
@@ -94,6 +99,7 @@ impl Drawn {
         match self {
             Self::Tube(tube, _) => tube.faces(),
             Self::Strip => &Strip::FACES,
+            Self::Lamina(lamina) => lamina.faces(),
             Self::Prism(prism) => prism.faces(),
             Self::Form(shape) => &shape.faces,
         }
@@ -108,7 +114,8 @@ impl<'a> Stems<'a> {
         let mut forms: Vec<Drawn> = looks.map(|look| Drawn::of(look, paints, options)).collect();
         forms.push(Drawn::Tube(Tube::new(options.sides), false));
         let sections: Vec<Drawn> = paints.sections().iter().map(|section| Drawn::Prism(Prism::new(section))).collect();
-        let next = if sections.is_empty() { Vec::new() } else { next_on_axis(plant) };
+        let laminae = forms.iter().any(|form| matches!(form, Drawn::Lamina(_)));
+        let next = if sections.is_empty() && !laminae { Vec::new() } else { next_on_axis(plant) };
         let (detail, line) = (Detail::of(plant, age, options), Drawn::Tube(Tube::new(OF_A_LINE), true));
         let bark = options.bark_m.map(|metres| Bark::of(plant, age, metres));
         let coloured = options.colours.is_some().then(|| options.clone());
@@ -174,6 +181,7 @@ impl<'a> Stems<'a> {
         match stem {
             Drawn::Tube(tube, _) => tube.write(&self.frustum(node), &self.tag(node), out),
             Drawn::Strip => Strip::write(&self.frustum(node), &self.tag(node), out),
+            Drawn::Lamina(lamina) => lamina.write(&self.piece(node), &self.tag(node), out),
             Drawn::Prism(prism) => prism.write(self.rings(node), &self.tag(node), out),
             Drawn::Form(shape) => shape.write(&self.stands(node), &[self.tag(node); 2], out),
         }
@@ -208,6 +216,20 @@ impl<'a> Stems<'a> {
         let next = self.next.get(node.index()).and_then(|next| next.some()).filter(with_section);
         let next = next.map(|next| Ring::base(&self.frustum(next))).filter(|start| start.meets(&tip));
         [start, next.map_or(tip, |next| tip.mitred(&next))]
+    }
+
+    /// An internode that is a piece of a blade, with its neighbours on its axis.
+    fn piece(&self, node: NodeId) -> Piece {
+        let nodes = &self.plant.nodes;
+        let before = nodes.parent[node.index()].some();
+        let before = before.filter(|parent| nodes.axis[parent.index()] == nodes.axis[node.index()]);
+        let after = self.next.get(node.index()).and_then(|next| next.some());
+        let after = after.filter(|next| self.plant.stands(*next, self.age));
+        Piece {
+            own: self.frustum(node),
+            before: before.map(|node| self.frustum(node)),
+            after: after.map(|node| self.frustum(node)),
+        }
     }
 
     /// An internode as a frustum.

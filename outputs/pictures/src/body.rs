@@ -10,7 +10,7 @@ use super::extent::corners;
 use super::film::{Film, Paint};
 use super::raster::{Window, turn};
 use glam::Vec3;
-use phytomer_looks::{Paints, Section};
+use phytomer_looks::{Blade, Near, Paints, Section};
 use phytomer_meshes::{Boxing, Mesh, MeshOptions, Scene, Tag, Tolerance, Vertex};
 use phytomer_sim::Tick;
 use phytomer_sim::plant::{Class, InternodeLook, Kind, Plant, Shape};
@@ -53,13 +53,13 @@ impl<'a> Body<'a> {
             Arc::new(mesh)
         });
         let (kept, blocks) = (kept.collect(), scene.blocks());
-        let stuff = stuff(scene.plant());
+        let stuff = stuff(scene.plant(), scene.options().detail);
         Self { scene: Some(scene), colours, boxes: Vec::new(), stuff, places, kept }.boxed(blocks)
     }
 
     /// An obstacle: a closed mesh in the coordinates of its stand.
     pub fn obstacle(mesh: &Arc<Mesh>) -> Self {
-        let (kept, stuff) = (vec![Arc::clone(mesh)], [Stuff { thin: false, closed: true }; Kind::ALL.len()]);
+        let (kept, stuff) = (vec![Arc::clone(mesh)], [Stuff { thin: false, closed: true, pale: 0 }; Kind::ALL.len()]);
         Self { scene: None, colours: None, boxes: Vec::new(), stuff, places: vec![Vec3::ZERO], kept }.boxed(1)
     }
 
@@ -131,7 +131,7 @@ impl<'a> Body<'a> {
             let corners = indices.map(|index| corners[index]);
             let vertices = indices.map(|index| &mesh.vertices[index]);
             let tag = vertices[0].tag();
-            let Stuff { thin, closed } = self.stuff_of(&tag);
+            let Stuff { thin, closed, pale } = self.stuff_of(&tag);
             // The far side of a closed surface is never seen. Corners behind the eye are NaN, so the comparison is
             // false.
             if closed && turn(&corners) > 0.0 {
@@ -140,7 +140,11 @@ impl<'a> Body<'a> {
             if painting {
                 film.paint(&corners, window, || {
                     let normals = vertices.map(|vertex| Vec3::from_array(vertex.normal()));
-                    (normals, self.paint(&tag, thin, subject))
+                    let mut paint = self.paint(&tag, thin, subject);
+                    if pale > 0 && !paint.stained && turn(&corners) > 0.0 {
+                        paint.colour = paler(paint.colour, pale);
+                    }
+                    (normals, paint)
                 });
             } else {
                 film.deepen(&corners, window);
@@ -178,10 +182,12 @@ pub struct Stuff {
     pub thin: bool,
     /// The far side is never seen: internodes that are tubes and nothing else.
     pub closed: bool,
+    /// The share of a paler colour that its underside has, of 255; none at detail 0.
+    pub pale: u8,
 }
 
 /// The optical properties of each kind of a plant.
-fn stuff(plant: &Plant) -> [Stuff; Kind::ALL.len()] {
+fn stuff(plant: &Plant, detail: u8) -> [Stuff; Kind::ALL.len()] {
     let paints = Paints::of(&plant.habit);
     let solid = paints.sections().iter().all(Section::is_closed);
     let looks = plant.habit.looks.internodes.iter().chain(&plant.habit.looks.apart);
@@ -197,8 +203,30 @@ fn stuff(plant: &Plant) -> [Stuff; Kind::ALL.len()] {
                 .clone()
                 .filter(look)
                 .all(|look| paints.internode(look.paint).form.is_none() && look.shape != Shape::Blade);
-        Stuff { thin, closed }
+        Stuff {
+            thin,
+            closed,
+            pale: if detail > 0 && kind.class() == Class::Leaf { underside(plant, paints) } else { 0 },
+        }
     })
+}
+
+/// How much paler the undersides of leaves are, of 255: as the first blade says that the species states, else a
+/// quarter.
+fn underside(plant: &Plant, paints: &Paints) -> u8 {
+    let leaves = plant.habit.looks.organs.iter().map(|looks| paints.organ(looks.leaf.paint));
+    let stated = leaves.filter_map(|paint| match paints.nears().get(usize::from(paint.near?)) {
+        Some(Near::Blade(blade)) => Some(blade.pale),
+        _ => None,
+    });
+    (255.0 * stated.into_iter().next().unwrap_or(Blade::default().pale)) as u8
+}
+
+/// A colour on the underside of a leaf.
+fn paler(colour: [u8; 3], share: u8) -> [u8; 3] {
+    const PALE: [u32; 3] = [206, 214, 192];
+    let share = u32::from(share);
+    [0, 1, 2].map(|k| ((u32::from(colour[k]) * (255 - share) + PALE[k] * share + 127) / 255) as u8)
 }
 
 fn is_leafy(kind: Kind) -> bool {

@@ -12,6 +12,7 @@ use super::colouring::{self, Legend, colours};
 use super::develop::Set;
 use super::draw;
 use super::extent::Extent;
+use super::focus::Focus;
 use super::framing::{Framing, wide_side};
 use super::placed::PlacedStand;
 use super::{MOST_SUBJECTS, Picture, Placed, Stand, View, letters};
@@ -41,7 +42,7 @@ impl<'a> Cast<'a> {
         let mut coloured =
             |count: usize| -> Vec<_> { (0..count).map(|_| colours.as_mut().and_then(Iterator::next)).collect() };
         let placed = stands.iter().zip(0_u8..).map(|(stand, number)| {
-            PlacedStand::new(bodies(stand, picture.sides, coloured(stand.plants.len())), &stand.obstacles, number)
+            PlacedStand::new(bodies(stand, picture, coloured(stand.plants.len())), &stand.obstacles, number)
         });
         let labels = stands.iter().map(|stand| stand.label.as_str()).collect();
         Self { stands: placed.collect(), labels, legend: legend.flatten(), turn: 0.0, held: None }
@@ -50,6 +51,9 @@ impl<'a> Cast<'a> {
     /// Puts the plants side by side, the first at the left, and returns the camera that sees all of them, at no more
     /// than `most` pixels per metre.
     pub fn aim(&mut self, picture: &Picture, most: f32) -> Camera {
+        if let Some(focus) = &picture.focus {
+            return self.aim_at(focus, picture);
+        }
         self.turn = picture.turn.unwrap_or_else(|| self.wide(picture.view));
         let gaze = picture.view.gaze(self.turn);
         let height = picture.size[1] as f32;
@@ -70,6 +74,15 @@ impl<'a> Cast<'a> {
         Camera::fitting(&all, &frame, height, most)
     }
 
+    /// The camera that an organ of the first plant fills.
+    fn aim_at(&mut self, focus: &Focus, picture: &Picture) -> Camera {
+        self.turn = picture.turn.unwrap_or_default();
+        let (frame, height) = (self.frame(picture), picture.size[1] as f32);
+        let mut extent = Extent::new(focus.gaze(self.turn), tangents(&frame, height, true));
+        focus.points().for_each(|point| extent.add(point));
+        Camera::fitting(&extent, &frame, height, f32::INFINITY)
+    }
+
     /// Leaves the first stand, which is to be the only one, in its place, and returns the camera that holds what is to
     /// be held. The viewer goes around from the place of the framing to the `turn` of the picture.
     pub fn hold(&mut self, picture: &Picture, framing: &Framing) -> Camera {
@@ -82,12 +95,14 @@ impl<'a> Cast<'a> {
 
     /// Draws the plants as a camera sees them, with their labels.
     pub fn draw(&self, picture: &Picture, camera: &Camera, title: &str) -> Canvas {
-        let sun = picture.sun.unwrap_or_else(|| picture.view.sun(self.turn));
+        let from = || picture.focus.as_ref().map_or_else(|| picture.view.sun(self.turn), |focus| focus.sun(self.turn));
+        let sun = picture.sun.unwrap_or_else(from);
+        let seen = picture.focus.as_ref().map(|focus| focus.bounds());
         // A colour that stands for a value is that of each internode by itself.
         let full = picture.sides.is_some() || picture.colour_by.is_some();
         let near: Vec<PlacedStand> = self.stands.iter().filter(|_| !full).map(|stand| stand.near(camera)).collect();
         let stands = if full { &self.stands } else { &near };
-        let lights: Vec<_> = stands.iter().map(|stand| stand.light(sun)).collect();
+        let lights: Vec<_> = stands.iter().map(|stand| stand.light(sun, (seen, picture.detail > 0))).collect();
         let Picture { ground, transparent, .. } = *picture;
         let around = self
             .stands
@@ -155,12 +170,12 @@ pub fn frame(picture: &Picture, stands: usize, legend: f32) -> Frame {
 
 /// A stand in its natural colours, as the first of a picture.
 pub fn placed<'a>(stand: &'a Stand, picture: &Picture) -> PlacedStand<'a> {
-    PlacedStand::new(bodies(stand, picture.sides, vec![None; stand.plants.len()]), &stand.obstacles, 0)
+    PlacedStand::new(bodies(stand, picture, vec![None; stand.plants.len()]), &stand.obstacles, 0)
 }
 
 /// The plants of a stand, each once with all places where it stands. Two plants are the same if they are one reference
 /// at one age.
-fn bodies<'a>(stand: &'a Stand, sides: Option<u8>, colours: Vec<Option<Vec<[u8; 3]>>>) -> Vec<Body<'a>> {
+fn bodies<'a>(stand: &'a Stand, picture: &Picture, colours: Vec<Option<Vec<[u8; 3]>>>) -> Vec<Body<'a>> {
     let key = |placed: &Placed| (std::ptr::from_ref(placed.plant).addr(), placed.age);
     let mut places: BTreeMap<(usize, Tick), Vec<Vec3>> = BTreeMap::new();
     for placed in &stand.plants {
@@ -170,7 +185,8 @@ fn bodies<'a>(stand: &'a Stand, sides: Option<u8>, colours: Vec<Option<Vec<[u8; 
     for (placed, colours) in stand.plants.iter().zip(colours) {
         let Some(places) = places.remove(&key(placed)) else { continue };
         let mut options = MeshOptions { own: Arc::clone(&placed.own), seen: placed.seen, ..MeshOptions::default() };
-        options.sides = sides.unwrap_or(options.sides);
+        options.sides = picture.sides.unwrap_or(options.sides);
+        options.detail = picture.detail;
         bodies.push(Body::new((placed.plant, placed.age), &options, colours, places));
     }
     bodies

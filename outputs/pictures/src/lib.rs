@@ -17,6 +17,7 @@ mod develop;
 mod draw;
 mod extent;
 mod film;
+mod focus;
 mod framing;
 mod gaze;
 mod ground;
@@ -40,6 +41,7 @@ pub use self::png::write_png;
 pub use ::png::Compression;
 pub use canvas::Canvas;
 pub use colouring::{Colouring, Colours, Scale, colours};
+pub use focus::{Focus, Wanted};
 pub use framing::Framing;
 pub use survey::Survey;
 
@@ -120,6 +122,10 @@ pub struct Picture {
     pub sides: Option<u8>,
     /// The mesh files that the species names as forms, for pictures of single plants.
     pub own: Arc<OwnForms>,
+    /// How finely organs are drawn, from 0 to 3; an organ that is small on the film has less.
+    pub detail: u8,
+    /// The organ that fills the picture; the whole of the plants if not given.
+    pub focus: Option<Arc<Focus>>,
     /// Values that colour the components of the picture's plants; natural colours if not given.
     pub colour_by: Option<Colouring>,
 }
@@ -137,6 +143,8 @@ impl Default for Picture {
             sun: None,
             sides: None,
             own: Arc::default(),
+            detail: 0,
+            focus: None,
             colour_by: None,
         }
     }

@@ -197,10 +197,12 @@ impl<'a> PlacedStand<'a> {
         looks.par_iter().map_init(Scratch::default, one).reduce(|| measured.known, |a, b| a.join(&b))
     }
 
-    /// The light over it, for a sun at an azimuth and an elevation, radians.
-    pub fn light(&self, sun: [f32; 2]) -> Light {
+    /// The light over it, for a sun at an azimuth and an elevation, radians; shadows are as fine as the box that is
+    /// seen allows, and for organs that are drawn from near the grid of the sky is smooth.
+    pub fn light(&self, sun: [f32; 2], (seen, near_by): (Option<[Vec3; 2]>, bool)) -> Light {
         let [low, high] = self.bounds();
-        let (shadow, crown) = (Shadow::over(low, high, sun), Crown::over(low, high));
+        let [near, far] = seen.unwrap_or([low, high]);
+        let (shadow, crown) = (Shadow::over(near, far, sun), Crown::over(low, high, near_by));
         self.each_look(
             |_| true,
             |look, scratch| {
@@ -267,7 +269,10 @@ impl<'a> PlacedStand<'a> {
             return None;
         }
         for corner in corners([low, high]) {
-            let seen = camera.project(corner + place)?;
+            // A block that the eye stands beside or in may reach anything, as around an organ in focus.
+            let Some(seen) = camera.project(corner + place) else {
+                return Some([Vec3::NEG_INFINITY, Vec3::INFINITY]);
+            };
             reached = [reached[0].min(seen), reached[1].max(seen)];
         }
         Some(reached)

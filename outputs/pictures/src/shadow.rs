@@ -20,6 +20,12 @@ const TEXELS: f32 = 2048.0;
 /// shows it. The sun's disc gives 0.0047; a hazy sky is softer and looks better.
 const SOFTNESS: f32 = 0.016;
 
+/// How far points are lifted off their surface at least, and towards the sun, texels.
+const OFF_SURFACE: f32 = 1.2;
+const TOWARDS_SUN: f32 = 1.8;
+/// The farthest that a tap of a surface lies from the middle of the texel that it asks, texels, with a margin.
+const FARTHEST_TAP: f32 = 1.5 + 0.75 + 0.1;
+
 /// The number of taps of a penumbra; each sample of a pixel takes one tap.
 pub const TAPS: usize = 16;
 
@@ -101,8 +107,19 @@ impl Shadow {
     #[inline]
     fn lifted(&self, point: Vec3, normal: Vec3) -> Vec3 {
         let side = if normal.dot(self.sun) < 0.0 { -normal } else { normal };
-        let lifted = point + side * (1.2 * self.texel) + self.sun * (1.8 * self.texel);
+        let lifted = point + side * (self.clearance(side) * self.texel) + self.sun * (TOWARDS_SUN * self.texel);
         self.camera.project(lifted).unwrap_or(Vec3::ZERO)
+    }
+
+    /// How far off a surface a point is lifted, texels. A tap is up to 1.5 texels aside and asks a depth of the middle
+    /// of a texel: on a plane at an angle to the rays what it finds lies nearer to the sun by as much as the sine of
+    /// that angle times both. A plane that lies along the rays needs the most; less would draw the rows of the map on
+    /// it as waves.
+    #[inline]
+    fn clearance(&self, side: Vec3) -> f32 {
+        let cosine = side.dot(self.sun).clamp(0.0, 1.0);
+        let sine = (1.0 - cosine * cosine).sqrt();
+        OFF_SURFACE.max(FARTHEST_TAP * sine - TOWARDS_SUN * cosine)
     }
 
     /// Whether a point on a surface is in the light, by one of its taps.

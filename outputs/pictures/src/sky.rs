@@ -18,8 +18,10 @@ const CELLS: f32 = 72.0;
 const AIR: usize = 10;
 /// The unit of area: this part of a cell's face. Sums of whole numbers do not depend on their order.
 const PARTS: f32 = 65536.0;
-/// The most pieces into which a side of a plant's triangle is cut.
-const MOST_CUTS: f32 = 12.0;
+/// The most pieces into which a side of a triangle is cut: half a cell for one as long as the grid.
+const MOST_CUTS: f32 = 4.0 * CELLS;
+/// The pieces of a side as long as a cell, of a triangle that is longer than one.
+const PIECES: f32 = 2.0;
 /// The rings of the sky: elevation in degrees, number of directions, share of the sky.
 const RINGS: [(f32, u16, f32); 4] = [(22.0, 8, 0.50), (42.0, 7, 0.30), (64.0, 4, 0.16), (90.0, 1, 0.04)];
 /// The number of directions that are swept at once; fixed, so that sums have one order.
@@ -32,6 +34,8 @@ pub struct Crown {
     cell: f32,
     size: [usize; 3],
     areas: Vec<AtomicU32>,
+    /// Whether small triangles are spread over cells too.
+    spreads: bool,
 }
 
 /// The light of the sky in each cell.
@@ -44,8 +48,10 @@ pub struct Sky {
 }
 
 impl Crown {
-    /// An empty grid over a box.
-    pub fn over(low: Vec3, high: Vec3) -> Self {
+    /// An empty grid over a box. A triangle that is larger than a cell is spread over the cells around each of its
+    /// pieces, so that a plane petal is evenly dense however it cuts the cells; with `spreads` smaller ones are too, as
+    /// those of a petal that is drawn from near.
+    pub fn over(low: Vec3, high: Vec3, spreads: bool) -> Self {
         let cell = ((high - low).max_element() / CELLS).max(1e-5);
         let sides = (high - low) / cell;
         let margin = [2 * AIR, 2 * AIR, 2];
@@ -53,40 +59,64 @@ impl Crown {
         let low = low - cell * Vec3::new(AIR as f32, AIR as f32, 1.0);
         let mut areas = Vec::new();
         areas.resize_with(size.iter().product(), AtomicU32::default);
-        Self { low, cell, size, areas }
+        Self { low, cell, size, areas, spreads }
     }
 
     /// Adds a triangle of a plant. A leaf, which is drawn once, shows half its area to a random direction; a closed
     /// surface shows a quarter (Cauchy).
     #[inline]
     pub fn add(&self, corners: &[Vec3; 3], thin: bool) {
-        self.add_cut(corners, thin, MOST_CUTS);
+        self.add_cut(corners, thin);
     }
 
     /// Adds a triangle of an obstacle, which may be as large as the grid: as one of a closed surface, in pieces that
     /// are no larger than a cell.
     #[inline]
     pub fn add_obstacle(&self, corners: &[Vec3; 3]) {
-        self.add_cut(corners, false, 4.0 * CELLS);
+        self.add_cut(corners, false);
     }
 
-    /// Adds a triangle in pieces; no side is cut into more than `most`.
+    /// Adds a triangle in pieces.
     #[inline]
-    fn add_cut(&self, [a, b, c]: &[Vec3; 3], thin: bool, most: f32) {
+    fn add_cut(&self, [a, b, c]: &[Vec3; 3], thin: bool) {
         let (ab, ac) = (*b - *a, *c - *a);
         let area = 0.5 * ab.cross(ac).length() * if thin { 0.5 } else { 0.25 };
         let longest = ab.length_squared().max(ac.length_squared()).max((*c - *b).length_squared());
-        let cuts = (longest.sqrt() / self.cell).ceil().clamp(1.0, most) as u16;
+        let cells = longest.sqrt() / self.cell;
+        let large = cells > 1.0;
+        let cuts = (if large { PIECES * cells } else { cells }).ceil().clamp(1.0, MOST_CUTS) as u16;
         let pieces = (u32::from(cuts) * (u32::from(cuts) + 1) / 2) as f32;
-        let parts = (area / pieces / (self.cell * self.cell) * PARTS + 0.5) as u32;
+        let parts = area / pieces / (self.cell * self.cell) * PARTS;
         let at = |i: u16, j: u16| (f32::from(i) + 1.0 / 3.0, f32::from(j) + 1.0 / 3.0);
         for (i, j) in (0..cuts).flat_map(|i| (0..cuts - i).map(move |j| at(i, j))) {
             let place = (*a + (ab * i + ac * j) / f32::from(cuts) - self.low) / self.cell;
-            let cell = [place.x, place.y, place.z].map(|x| x.max(0.0) as usize);
-            if cell[0] < self.size[0] && cell[1] < self.size[1] && cell[2] < self.size[2] {
-                let index = (cell[2] * self.size[1] + cell[1]) * self.size[0] + cell[0];
-                self.areas[index].fetch_add(parts, Relaxed);
+            if large || self.spreads {
+                self.spread(place, parts);
+            } else {
+                self.put(place, (parts + 0.5) as u32);
             }
+        }
+    }
+
+    /// Adds a number of parts to the cell of a place.
+    #[inline]
+    fn put(&self, place: Vec3, parts: u32) {
+        let cell = [place.x, place.y, place.z].map(|x| x.max(0.0) as usize);
+        if cell[0] < self.size[0] && cell[1] < self.size[1] && cell[2] < self.size[2] {
+            let index = (cell[2] * self.size[1] + cell[1]) * self.size[0] + cell[0];
+            self.areas[index].fetch_add(parts, Relaxed);
+        }
+    }
+
+    /// Adds parts to the eight cells whose middles are around a place, to each the more the nearer it is.
+    fn spread(&self, place: Vec3, parts: f32) {
+        let first = (place - 0.5).floor();
+        let share = place - 0.5 - first;
+        for corner in 0..8 {
+            let far = [0, 1, 2].map(|bit| corner >> bit & 1 == 1);
+            let weight = |k: usize| if far[k] { share[k] } else { 1.0 - share[k] };
+            let cell = first + Vec3::from_array(far.map(|far| if far { 1.5 } else { 0.5 }));
+            self.put(cell, (parts * weight(0) * weight(1) * weight(2) + 0.5) as u32);
         }
     }
 

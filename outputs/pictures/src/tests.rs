@@ -155,7 +155,7 @@ fn crossed(height: f32, radius: f32) -> Vec<[Vec3; 3]> {
 /// A level sheet of leaves of area index L, G = ½, lets exp(−L / 2 sin e) of each direction through; nothing above it.
 #[test]
 fn a_canopy_darkens_the_sky_by_beers_law() {
-    let crown = Crown::over(Vec3::ZERO, Vec3::new(1.0, 1.0, 0.2));
+    let crown = Crown::over(Vec3::ZERO, Vec3::new(1.0, 1.0, 0.2), false);
     let step = 0.01;
     for (i, j) in (0..100).flat_map(|i| (0..100).map(move |j| (i, j))) {
         let at = Vec3::new(i as f32 * step, j as f32 * step, 0.1);

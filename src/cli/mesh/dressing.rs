@@ -34,6 +34,9 @@ pub struct Dressing {
     /// phase from 0 to 1 that is that of its branch or of its organ, for shaders.
     #[arg(long)]
     attributes: bool,
+    /// How finely leaves, flowers and fruits are drawn: 0, a few polygons, to 3, for close-ups.
+    #[arg(long, value_name = "0…3", default_value_t = 0, value_parser = clap::value_parser!(u8).range(0..=3))]
+    detail: u8,
     /// Colour the vertices of a PLY file by a column of `records`, by `species`, or of a --plot by the `light` of
     /// leaves and buds; amounts go from violet over green to yellow.
     #[arg(long, value_name = "COLUMN", hide_possible_values = true)]
@@ -67,6 +70,12 @@ impl Dressing {
         if self.colour_by.is_some() && (format != Format::Ply || life) {
             return Err(Misuse("--colour-by: this is for a PLY file (.ply) of one age".to_owned()));
         }
+        if self.detail > 0 && (life || matches!(format, Format::Usd(..))) {
+            let found = if life { "a life" } else { "USD" };
+            return Err(Misuse(format!(
+                "--detail: {found} shows instances of forms; PLY, GLB and STL of one age have it"
+            )));
+        }
         let Some((option, _)) = used.into_iter().find(|(_, used)| *used) else { return Ok(()) };
         if format == Format::Stl {
             return Err(Misuse(format!("{option}: STL holds triangles alone; PLY, GLB and USD hold it")));
@@ -97,9 +106,13 @@ impl Dressing {
 
     /// The option that gives each leaf vertices of its own, which instances of one leaf have not.
     pub fn of_each_leaf(&self) -> Option<&'static str> {
-        let crown = self.leaf_normals == LeafNormals::Crown;
-        let wind = self.wind_data.then_some("--wind-data").or(self.attributes.then_some("--attributes"));
-        crown.then_some("--leaf-normals crown").or(wind)
+        let asked = [
+            (self.detail > 0, "--detail"),
+            (self.leaf_normals == LeafNormals::Crown, "--leaf-normals crown"),
+            (self.wind_data, "--wind-data"),
+            (self.attributes, "--attributes"),
+        ];
+        asked.into_iter().find(|(asked, _)| *asked).map(|(_, option)| option)
     }
 
     /// States them for a plant of a model.
@@ -116,6 +129,7 @@ impl Dressing {
         options.bark_m = self.bark.map(|metres| metres as f32);
         options.attributes = self.attributes;
         options.crown_normals = self.leaf_normals == LeafNormals::Crown;
+        options.detail = self.detail;
     }
 }
 

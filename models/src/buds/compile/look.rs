@@ -11,7 +11,7 @@ use crate::buds::params::{
 };
 use crate::fault::{Fault, Path};
 use crate::law::{Law, Quantity, ValueRange, Variate};
-use phytomer_looks::{Colour, InternodePaint, OrganPaint, Paints, own_form};
+use phytomer_looks::{Colour, InternodePaint, Near, OrganPaint, Paints, own_form};
 use phytomer_sim::plant::{Class, Form, InternodeLook, Kind, Looks, OrganLook, OrganLooks, PaintNumber, Shape};
 
 const SIDES: std::ops::RangeInclusive<u32> = 3..=64;
@@ -203,15 +203,15 @@ impl Place<'_> {
         OrganLooks {
             leaf: OrganLook {
                 expansion: self.expansion(&order.leaf.expansion, "leaf"),
-                paint: self.leaf(&order.leaf.colour),
+                paint: self.leaf(&order.leaf.colour, &order.leaf.near),
             },
             flower: OrganLook {
                 expansion: self.expansion(&order.flower.expansion, "flower"),
-                paint: self.flower(&order.flower.colour),
+                paint: self.flower(&order.flower.colour, &order.flower.near),
             },
             fruit: OrganLook {
                 expansion: self.expansion(&order.fruit.expansion, "fruit"),
-                paint: self.fruit(&order.fruit.colour),
+                paint: self.fruit(&order.fruit.colour, &order.fruit.near),
             },
         }
     }
@@ -226,14 +226,15 @@ impl Place<'_> {
         })
     }
 
-    fn leaf(&mut self, stated: &Option<LeafChoice>) -> PaintNumber {
+    fn leaf(&mut self, stated: &Option<LeafChoice>, near: &Option<Near>) -> PaintNumber {
         let turns_in = self.buds.season.as_ref().map_or(0, |season| turning_of(season.ticks_per_year.value()));
         let path = self.path.key("leaf").key("colour");
         let paint = LeafChoice::paint(stated.as_ref(), turns_in, &path, self.faults);
-        self.paints.add_organ(paint)
+        let near = self.near(near, "leaf");
+        self.paints.add_organ(OrganPaint { near, ..paint })
     }
 
-    fn flower(&mut self, stated: &Option<FlowerChoice>) -> PaintNumber {
+    fn flower(&mut self, stated: &Option<FlowerChoice>, near: &Option<Near>) -> PaintNumber {
         let path = self.path.key("flower").key("colour");
         let paint = match stated {
             None => OrganPaint::default(),
@@ -248,10 +249,11 @@ impl Place<'_> {
                 ..OrganPaint::default()
             },
         };
-        self.paints.add_organ(paint)
+        let near = self.near(near, "flower");
+        self.paints.add_organ(OrganPaint { near, ..paint })
     }
 
-    fn fruit(&mut self, stated: &Option<FruitChoice>) -> PaintNumber {
+    fn fruit(&mut self, stated: &Option<FruitChoice>, near: &Option<Near>) -> PaintNumber {
         let path = self.path.key("fruit").key("colour");
         let paint = match stated {
             None => OrganPaint::default(),
@@ -267,7 +269,19 @@ impl Place<'_> {
                 ..OrganPaint::default()
             },
         };
-        self.paints.add_organ(paint)
+        let near = self.near(near, "fruit");
+        self.paints.add_organ(OrganPaint { near, ..paint })
+    }
+
+    /// The place of a setting among the paints; faults where it is not sound for an organ half as wide as long.
+    fn near(&mut self, stated: &Option<Near>, key: &str) -> Option<u16> {
+        let near = stated.as_ref()?;
+        let path = self.path.key(key).key("near");
+        for unsound in near.unsound(0.5) {
+            let path = unsound.keys.iter().fold(path.clone(), |path, key| path.key(key));
+            self.faults.push(Fault::new(&path, unsound.found, unsound.expected));
+        }
+        self.paints.add_near(*near)
     }
 
     fn stage(&mut self, stated: &Option<ColourText>, path: &Path, key: &str) -> Option<Colour> {

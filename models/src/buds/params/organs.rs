@@ -6,7 +6,7 @@
 use super::colour::{FlowerChoice, FruitChoice, LeafChoice};
 use super::looks::{FormChoice, KindName};
 use crate::law::{Constant, Count, Law, Quantity, Variate};
-use phytomer_looks::FormName;
+use phytomer_looks::{FormName, Near};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -88,6 +88,10 @@ pub struct Leaf {
     pub facing: Facing,
     /// The form that it is drawn with: one of the library (`phytomer list forms`), or `{ mesh = "file.ply" }`.
     pub form: FormChoice,
+    /// How it is drawn from near, at detail 1 to 3 of a mesh or a picture: a `blade`, a `flower` or a `capitulum`. Left
+    /// out: as the library has its form.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub near: Option<Near>,
     /// What it is: `leaf`, or another kind that stands as a leaf does: a leaflet, a bract, a scale, a part of a flower.
     #[serde(skip_serializing_if = "KindName::is_leaf")]
     pub kind: KindName,
@@ -112,6 +116,7 @@ impl Default for Leaf {
             trend: None,
             facing: Facing::Axis,
             form: FormName::Elliptic.into(),
+            near: None,
             kind: KindName::Leaf,
             expansion: None,
             colour: None,
@@ -147,6 +152,10 @@ pub struct Flower {
     pub trend: Option<OrganTrend>,
     /// The form that it is drawn with: one of the library (`phytomer list forms`), or `{ mesh = "file.ply" }`.
     pub form: FormChoice,
+    /// How it is drawn from near, at detail 1 to 3 of a mesh or a picture: a `blade`, a `flower` or a `capitulum`. Left
+    /// out: as the library has its form.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub near: Option<Near>,
     /// What it is: `flower`, or an inflorescence or a spikelet.
     #[serde(skip_serializing_if = "KindName::is_flower")]
     pub kind: KindName,
@@ -173,6 +182,7 @@ impl Default for Flower {
             insertion_deg: Variate::from(45.0),
             trend: None,
             form: FormName::Corolla.into(),
+            near: None,
             kind: KindName::Flower,
             expansion: None,
             colour: None,
@@ -195,6 +205,10 @@ pub struct Fruit {
     pub trend: Option<OrganTrend>,
     /// The form that it is drawn with: one of the library (`phytomer list forms`), or `{ mesh = "file.ply" }`.
     pub form: FormChoice,
+    /// How it is drawn from near, at detail 1 to 3 of a mesh or a picture: a `blade`, a `flower` or a `capitulum`. Left
+    /// out: as the library has its form.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub near: Option<Near>,
     /// What it is: `fruit`, or an infructescence or a strobilus.
     #[serde(skip_serializing_if = "KindName::is_fruit")]
     pub kind: KindName,
@@ -215,6 +229,7 @@ impl Default for Fruit {
             width_cm: Variate::from(1.0),
             trend: None,
             form: FormName::Berry.into(),
+            near: None,
             kind: KindName::Fruit,
             expansion: None,
             colour: None,

@@ -15,6 +15,7 @@ mod coarse;
 mod flat;
 mod flower;
 mod fruit;
+pub mod near;
 pub mod own;
 mod palm;
 mod round;
@@ -42,6 +43,8 @@ pub struct Point {
     pub texture: [f32; 2],
     /// Whether it has the colour of the stalk.
     pub stalk: bool,
+    /// A colour that lies over that of the organ or the stalk, and its share of 255; forms of detail 0 have none.
+    pub tint: [u8; 4],
 }
 
 /// The measure that scales the z direction of a shape.
@@ -66,6 +69,8 @@ pub struct FormMesh {
     /// Whether it becomes slim or full in each of its parts; else in its width.
     in_parts: bool,
     side: Side,
+    /// Whether each of its triangles is of a closed part, of a form from near, whose fullness is found by its area.
+    closed: Vec<bool>,
     /// The same form with fewer triangles, made when it is first asked for.
     coarser: OnceLock<Vec<Coarse>>,
 }
@@ -109,13 +114,27 @@ phytomer_looks::forms!(made);
 impl FormMesh {
     fn new(depth: Depth) -> Self {
         let (points, faces) = (Vec::new(), Vec::new());
-        let side = Side::of(&points, &faces, depth);
-        Self { points, faces, polygons: Vec::new(), depth, in_parts: false, side, coarser: OnceLock::new() }
+        let side = Side::of(&points, &faces, depth, 1.0);
+        Self {
+            points,
+            faces,
+            polygons: Vec::new(),
+            depth,
+            in_parts: false,
+            side,
+            closed: Vec::new(),
+            coarser: OnceLock::new(),
+        }
     }
 
     /// The shape with its area computed, to be called after its last triangle is added.
-    fn measured(mut self) -> Self {
-        self.side = Side::of(&self.points, &self.faces, self.depth);
+    fn measured(self) -> Self {
+        self.measured_at(1.0)
+    }
+
+    /// The same where the width, or the length over the width, scales what leans by about `nominal`.
+    fn measured_at(mut self, nominal: f32) -> Self {
+        self.side = Side::of(&self.points, &self.faces, self.depth, f64::from(nominal));
         self
     }
 
@@ -150,7 +169,8 @@ impl FormMesh {
     /// `area`.
     #[inline]
     pub fn fullness(&self, size: [f32; 2], area: f32) -> f32 {
-        self.side.fullness(size, area, self.in_parts)
+        let first = self.side.fullness(size, area, self.in_parts);
+        if self.closed.is_empty() || area <= 0.0 { first } else { near::fullness(self, size, area, first) }
     }
 
     /// Adds a plane convex polygon, its corners counterclockwise as seen from its upper side.
@@ -164,6 +184,7 @@ impl FormMesh {
             normal,
             texture: texture(at),
             stalk,
+            tint: [0; 4],
         }));
         self.faces.extend((1..corners.len() as u32 - 1).map(|k| [first, first + k, first + k + 1]));
     }
@@ -199,6 +220,15 @@ impl FormMesh {
                 (of, normal) = (point.normal, turned(scaled_normal(point.normal, cofactors)));
             }
             *vertex = Vertex::new(at, normal, point.texture, &tags[usize::from(point.stalk)]);
+        }
+    }
+}
+
+impl FormMesh {
+    /// Lays the tints of its corners over the colours that [`FormMesh::write`] gave them.
+    pub(crate) fn tint(&self, out: &mut [Vertex]) {
+        for (point, vertex) in self.points.iter().zip(out).filter(|(point, _)| point.tint[3] > 0) {
+            vertex.lay_over(point.tint);
         }
     }
 }

@@ -48,7 +48,14 @@ fn rachis(shape: &mut FormMesh) {
             let normal = [-along_z * sin, cos, along_x * sin];
             let across = normal.map(|n| radius * n);
             let at = [x + across[0], across[1], z + across[2]];
-            shape.points.push(Point { at, across, normal, texture: [side as f32 / 4.0, share], stalk: true });
+            shape.points.push(Point {
+                at,
+                across,
+                normal,
+                texture: [side as f32 / 4.0, share],
+                stalk: true,
+                tint: [0; 4],
+            });
         }
     }
     for step in 0..u32::from(STEPS) {

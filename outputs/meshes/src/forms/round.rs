@@ -71,7 +71,14 @@ fn ring(shape: &mut FormMesh, meridian: &[[f32; 2]], row: usize, sides: u16, sta
     for k in u16::from(last_pole)..=sides - u16::from(first_pole) {
         let (sin, cos) = sincosf(TAU * f32::from(k % sides) / f32::from(sides));
         let (at, normal) = ([x, r * cos, r * sin], [along, across * cos, across * sin]);
-        shape.points.push(Point { at, across: [0.0; 3], normal, texture: [f32::from(k) / f32::from(sides), x], stalk });
+        shape.points.push(Point {
+            at,
+            across: [0.0; 3],
+            normal,
+            texture: [f32::from(k) / f32::from(sides), x],
+            stalk,
+            tint: [0; 4],
+        });
     }
     first
 }

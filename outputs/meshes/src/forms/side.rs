@@ -34,7 +34,8 @@ pub(super) struct Side {
 }
 
 impl Side {
-    pub fn of(points: &[Point], faces: &[[u32; 3]], depth: Depth) -> Self {
+    /// `nominal` is what the leaning parts are scaled by in most organs: the classes of lean are finest around it.
+    pub fn of(points: &[Point], faces: &[[u32; 3]], depth: Depth, nominal: f64) -> Self {
         let at: Vec<[f32; 3]> = points.iter().map(|point| point.at).collect();
         let weights = closed(&at, faces);
         let mut leans = vec![[0.0; 2]; LEANS + 1];
@@ -45,7 +46,7 @@ impl Side {
                 Depth::Width => [(y * y + z * z).sqrt(), x.abs()],
                 Depth::Length => [(x * x + z * z).sqrt(), y.abs()],
             };
-            let share = lean / (flat + lean).max(f64::MIN_POSITIVE);
+            let share = nominal * lean / (flat + nominal * lean).max(f64::MIN_POSITIVE);
             let place = if share < UPRIGHT { 0 } else { 1 + ((share * LEANS as f64) as usize).min(LEANS - 1) };
             leans[place][0] += flat;
             leans[place][1] += if place == 0 { 0.0 } else { lean };
@@ -107,6 +108,11 @@ impl Side {
         }
         fullness
     }
+}
+
+/// For each triangle of a form whether its part is closed.
+pub(super) fn closed_parts(form: &super::FormMesh) -> Vec<bool> {
+    closed(&form.points.iter().map(|point| point.at).collect::<Vec<_>>(), &form.faces)
 }
 
 /// Twice the area of a triangle, along its normal.

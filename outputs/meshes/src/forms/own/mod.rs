@@ -199,5 +199,5 @@ fn point(at: [f32; 3], normal: [f32; 3]) -> Point {
     // Of triangles that face each other nothing is left: such a vertex looks up.
     let normal =
         if length > f32::MIN_POSITIVE && length.is_finite() { normal.map(|x| x / length) } else { [0.0, 0.0, 1.0] };
-    Point { at, across: [0.0; 3], normal, texture: super::along(at), stalk: false }
+    Point { at, across: [0.0; 3], normal, texture: super::along(at), stalk: false, tint: [0; 4] }
 }

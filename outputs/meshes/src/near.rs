@@ -1,0 +1,92 @@
+//! Which form an organ has where detail is asked for: that of its species' settings, or of the library's.
+//!
+//! In a picture detail goes by size on the film: the distance within which organs are drawn is half a pixel there, and
+//! an organ has the detail whose triangles are still some pixels large. So a full tree costs hardly more than at detail
+//! 0. Absent: the forms themselves (`forms::near`).
+
+use super::MeshOptions;
+use super::forms::{FormMesh, near};
+use phytomer_looks::{Blade, Capitulum, Near, Paints, place_of_own};
+use phytomer_sim::clock::{NEVER, Tick};
+use phytomer_sim::plant::{OrganId, PaintNumber, Plant};
+
+/// The length that an organ has at least for each detail from 1, in distances within which organs are drawn.
+const LENGTHS: [f32; 3] = [30.0, 120.0, 400.0];
+
+/// The stages of a head that opens as it ages, and of a blade that tears.
+const STAGES: u8 = 8;
+
+/// The settings of a species, and the forms that are made of them.
+#[derive(Debug, Default)]
+pub struct Nears {
+    /// For each setting its stages; one of what does not change with its age.
+    made: Vec<Vec<(Near, near::Made)>>,
+}
+
+impl Nears {
+    /// The settings of a species; none at detail 0.
+    pub fn of(paints: &Paints, detail: u8) -> Self {
+        let stated = if detail > 0 { paints.nears() } else { &[] };
+        let made = |near: Near| (near, near::Made::new());
+        Self { made: stated.iter().map(|near| stages(near).into_iter().map(made).collect()).collect() }
+    }
+
+    /// The form of an organ from near; `None` at detail 0 and for a mesh of the user's.
+    #[inline]
+    pub fn form(&self, (plant, age): (&Plant, Tick), organ: OrganId, options: &MeshOptions) -> Option<&FormMesh> {
+        if options.detail == 0 {
+            return None;
+        }
+        let (organs, place) = (&plant.organs, organ.index());
+        let size = [organs.length[place], organs.width[place]];
+        let within = options.tolerance.filter(|tolerance| tolerance.organs).map(|tolerance| tolerance.distance);
+        let detail =
+            within.map_or(options.detail, |distance| detail_of(size[0].max(size[1]), distance, options.detail));
+        if detail == 0 {
+            return None;
+        }
+        let paint = plant.look_of_organ(organ).map_or(PaintNumber::NONE, |look| look.paint);
+        let stated = Paints::of(&plant.habit).organ(paint).near.and_then(|near| self.made.get(usize::from(near)));
+        let stage = |stages: &[(Near, near::Made)]| stage(plant, organ, age, stages.len());
+        match stated.and_then(|stages| stages.get(stage(stages))) {
+            Some((near, made)) => Some(made.of(near, detail, size, organs.area[place])),
+            None if place_of_own(organs.form[place]).is_some() => None,
+            None => Some(near::of_library(organs.form[place], detail, size, organs.area[place])),
+        }
+    }
+}
+
+/// The detail of an organ of a length that is drawn within a distance, at most `most`.
+fn detail_of(length: f32, distance: f32, most: u8) -> u8 {
+    let reached = LENGTHS.iter().take_while(|least| length >= **least * distance).count();
+    most.min(reached as u8)
+}
+
+/// A setting in each of its stages.
+fn stages(near: &Near) -> Vec<Near> {
+    match near {
+        Near::Capitulum(head) if head.opened.is_none() => (0..STAGES)
+            .map(|stage| {
+                let share = f32::from(stage) / f32::from(STAGES - 1);
+                // Rays unfold first; then the florets open from the rim inwards.
+                let unfolded = head.unfolded * (3.0 * share).min(1.0);
+                Near::Capitulum(Capitulum { opened: Some(share), unfolded, ..*head })
+            })
+            .collect(),
+        Near::Blade(blade) if blade.tears > 0.0 => {
+            let torn = |stage: u8| blade.tears * f32::from(stage) / f32::from(STAGES - 1);
+            (0..STAGES).map(|stage| Near::Blade(Blade { tears: torn(stage), ..*blade })).collect()
+        }
+        _ => vec![*near],
+    }
+}
+
+/// The stage of an organ at an age of its plant, by the share of its life that it has lived.
+fn stage(plant: &Plant, organ: OrganId, age: Tick, stages: usize) -> usize {
+    let (birth, death) = (plant.organs.birth[organ.index()], plant.organs.death[organ.index()]);
+    if stages < 2 || death == NEVER || death <= birth {
+        return 0;
+    }
+    let lived = f64::from(age.saturating_sub(birth)) / f64::from((death - birth).max(2) - 1);
+    ((lived.min(1.0) * (stages - 1) as f64).round() as usize).min(stages - 1)
+}

@@ -1,0 +1,176 @@
+//! Organs from near: each leaf of each shipped species has the area of the tables at each detail, and what cannot be
+//! drawn is refused.
+//!
+//! Areas are summed from the triangles of single organs, closed parts by half of their surface, as in the tables
+//! (Chen & Black 1992). Absent: the forms by themselves, whose tests stand beside them.
+
+mod program;
+
+use phytomer::outputs::meshes::{Face, Mesh, MeshOptions, Scene, Vertex};
+use phytomer::run::regrowth::Regrowth;
+use phytomer::sim::plant::{Class, OrganId, Plant};
+use phytomer_config::{Kind, presets, validate_species};
+use program::{program as phytomer_program, run, said};
+use std::collections::BTreeMap;
+use std::fs;
+use tempfile::tempdir;
+
+/// The most leaves of a species that are measured at the details 2 and 3, evenly over all of them.
+const MEASURED: usize = 120;
+
+/// The area of one side: triangles of open sheets, and half of those of closed parts. Parts are joined by equal places.
+fn area(mesh: &Mesh) -> f64 {
+    let at = |corner: u32| mesh.vertices[corner as usize].position();
+    let key = |corner: u32| at(corner).map(|x| (x + 0.0).to_bits());
+    let faces: Vec<[u32; 3]> = mesh.faces.iter().map(Face::indices).collect();
+    let mut parents: Vec<usize> = (0..faces.len()).collect();
+    fn root(parents: &mut [usize], mut face: usize) -> usize {
+        while parents[face] != face {
+            parents[face] = parents[parents[face]];
+            face = parents[face];
+        }
+        face
+    }
+    let mut edges: BTreeMap<[[u32; 3]; 2], (usize, i32)> = BTreeMap::new();
+    for (face, corners) in faces.iter().enumerate() {
+        for k in 0..3 {
+            let (a, b) = (key(corners[k]), key(corners[(k + 1) % 3]));
+            let (edge, turn) = if a < b { ([a, b], 1) } else { ([b, a], -1) };
+            let (first, sum) = edges.entry(edge).or_insert((face, 0));
+            *sum += turn;
+            let (a, b) = (root(&mut parents, *first), root(&mut parents, face));
+            parents[a.max(b)] = a.min(b);
+        }
+    }
+    let mut open = vec![false; faces.len()];
+    for (face, _) in edges.into_values().filter(|(_, sum)| *sum != 0) {
+        open[root(&mut parents, face)] = true;
+    }
+    let of = |face: usize, parents: &mut [usize]| {
+        let [a, b, c] = faces[face].map(|corner| at(corner).map(f64::from));
+        let (u, v) = ([0, 1, 2].map(|k| b[k] - a[k]), [0, 1, 2].map(|k| c[k] - a[k]));
+        let normal = [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]];
+        let whole = 0.5 * normal.iter().map(|x| x * x).sum::<f64>().sqrt();
+        if open[root(parents, face)] { whole } else { 0.5 * whole }
+    };
+    (0..faces.len()).map(|face| of(face, &mut parents)).sum()
+}
+
+/// The largest share by which a leaf is off its area, and how many were measured.
+fn off(plant: &Plant, age: u32, detail: u8, most: usize) -> (f64, usize) {
+    let scene = Scene::new(plant, age, &MeshOptions { detail, ..MeshOptions::default() });
+    let is_leaf = |organ: &OrganId| plant.organs.kind[organ.index()].class() == Class::Leaf;
+    let leaves: Vec<OrganId> =
+        scene.organs().filter(is_leaf).filter(|o| plant.organ_area::<f64>(*o, age) > 0.0).collect();
+    let step = leaves.len().div_ceil(most).max(1);
+    let offs = leaves.iter().step_by(step).map(|organ| {
+        let stated: f64 = plant.organ_area(*organ, age);
+        (area(&scene.mesh_of(*organ)) / stated - 1.0).abs()
+    });
+    let offs: Vec<f64> = offs.collect();
+    (offs.iter().copied().fold(0.0, f64::max), offs.len())
+}
+
+#[test]
+fn leaves_of_every_shipped_species_have_their_areas_at_every_detail() {
+    let (mut wrong, mut measured) = (Vec::new(), 0);
+    for (name, _) in presets(Kind::Species) {
+        let species = validate_species(name, 1).unwrap_or_else(|report| panic!("{}", report.render(false)));
+        let age = species.shown_at().min(40);
+        let species = validate_species(name, age).unwrap_or_else(|report| panic!("{}", report.render(false)));
+        let shown = Regrowth::of(&species.alone(name)).show(0, &[age], &mut |age, plant| {
+            for detail in 0..=3 {
+                let (off, count) = off(plant, age, detail, if detail < 2 { 2000 } else { MEASURED });
+                measured += count;
+                if off > 0.01 {
+                    wrong.push(format!("{name} at detail {detail}: {off:.4}"));
+                }
+            }
+            Ok(())
+        });
+        shown.unwrap_or_else(|error| panic!("{name}: {error}"));
+    }
+    assert!(wrong.is_empty(), "{wrong:#?}");
+    assert!(measured > 5000, "{measured} leaves");
+}
+
+fn picture(folder: &std::path::Path, words: &[&str]) -> Vec<u8> {
+    run(folder, &[&["picture"], words, &["--size", "160x120", "--out", "p.png"]].concat()).ending(0);
+    fs::read(folder.join("p.png")).expect("a picture")
+}
+
+#[test]
+fn detail_0_is_the_default_and_a_focus_is_another_picture() {
+    let folder = tempdir().expect("a temporary folder");
+    let folder = folder.path();
+    let plain = picture(folder, &["monocarp", "--age", "30"]);
+    assert_eq!(plain, picture(folder, &["monocarp", "--age", "30", "--detail", "0"]));
+    let near: Vec<Vec<u8>> = ["0", "1", "3"]
+        .map(|detail| picture(folder, &["monocarp", "--age", "30", "--focus", "leaf", "--detail", detail]))
+        .into();
+    assert!(near[0] != plain && near[0] != near[1] && near[1] != near[2]);
+    let draw = |threads: &str| {
+        let words = ["picture", "monocarp", "--age", "31", "--focus", "flower", "--detail", "3", "--size", "200x150"];
+        let words = [&words[..], &["--out", "t.png"]].concat();
+        said(phytomer_program(folder, &words).env("RAYON_NUM_THREADS", threads).output().unwrap()).ending(0);
+        fs::read(folder.join("t.png")).unwrap()
+    };
+    assert!(draw("1") == draw("5"), "threads");
+}
+
+#[test]
+fn a_mesh_from_near_has_more_triangles_and_the_same_components() {
+    let folder = tempdir().expect("a temporary folder");
+    let mesh = |detail: &str| {
+        run(folder.path(), &["mesh", "monocarp", "--age", "30", "--detail", detail, "--out", "m.ply"]).ending(0);
+        fs::read(folder.path().join("m.ply")).expect("a mesh").len()
+    };
+    let plain = mesh("0");
+    run(folder.path(), &["mesh", "monocarp", "--age", "30", "--out", "n.ply"]).ending(0);
+    assert_eq!(fs::read(folder.path().join("n.ply")).unwrap(), {
+        mesh("0");
+        fs::read(folder.path().join("m.ply")).unwrap()
+    });
+    assert!(mesh("1") > plain && mesh("3") > 4 * mesh("1"));
+}
+
+#[test]
+fn what_cannot_be_shown_from_near_is_refused() {
+    let folder = tempdir().expect("a temporary folder");
+    for (words, meant) in [
+        (vec!["picture", "coffee", "--age", "24", "--detail", "9"], "9 is not in 0..=3"),
+        (vec!["picture", "coffee", "--age", "24", "--focus", "root"], "`leaf`, `flower`, `fruit` or the number"),
+        (vec!["picture", "monocarp", "--age", "10", "--focus", "fruit"], "has no fruit at age 10"),
+        (vec!["picture", "coffee", "--age", "4", "--focus", "99999999"], "has no component 99999999 at age 4"),
+        (vec!["picture", "coffee", "--ages", "4,8", "--focus", "leaf"], "this is for one plant at one age"),
+        (vec!["mesh", "coffee", "--ages", "1..8/4", "--detail", "1", "--out", "x.usdc"], "instances of forms"),
+    ] {
+        let out = if words.contains(&"--out") { &[][..] } else { &["--out", "x.png"] };
+        let told = run(folder.path(), &[&words[..], out].concat()).ending(2);
+        assert!(told.stderr.contains(meant), "{words:?}: {}", told.stderr);
+    }
+}
+
+#[test]
+fn settings_that_are_not_sound_are_faults() {
+    let folder = tempdir().expect("a temporary folder");
+    let leaf = |near: &str| {
+        format!(
+            "name = \"a\"\nmodel = \"buds\"\ntick = \"one year\"\n[[order]]\ninternode = {{ length_cm = 10 }}\n[order.leaf]\nnear = {near}\n"
+        )
+    };
+    for (near, meant) in [
+        ("{ blade = { stalk = 2 } }", "from 0 to 0.9"),
+        ("{ blade = { fold_deg = 85, arch_deg = -300 } }", "the blade crosses itself"),
+        ("{ blade = { margin = \"wavy\" } }", "toothed"),
+        ("{ capitulum = { florets = 5000 } }", "from 20 to 1600"),
+        ("{ flower = { petals = 1 } }", "from 2 to 40"),
+        ("{ blade = { stalks = 1 } }", "stalk"),
+    ] {
+        fs::write(folder.path().join("a.toml"), leaf(near)).unwrap();
+        let told = run(folder.path(), &["validate", "a.toml"]).ending(3);
+        assert!(told.stderr.contains(meant), "{near}: {}", told.stderr);
+    }
+    fs::write(folder.path().join("a.toml"), leaf("{ blade = { margin = \"toothed\", divisions = 20 } }")).unwrap();
+    run(folder.path(), &["validate", "a.toml"]).ending(0);
+}
