@@ -6,7 +6,7 @@
 //! that at which the species is shown. What a species does not bear is left out.
 
 use anyhow::{Result, anyhow};
-use phytomer::config::{Kind, ResolvedSpecies, SPECIES_ALONE_UNTIL, presets, validate_species};
+use phytomer::config::{Kind, Resolved, SPECIES_ALONE_UNTIL, presets, validate_species};
 use phytomer::outputs::meshes::MeshOptions;
 use phytomer::outputs::pictures::{Compression, Focus, Picture, Wanted, draw_stands, write_png};
 use phytomer::run::picturing::pictured_plants;
@@ -45,26 +45,26 @@ fn main() -> Result<()> {
 /// Draws the organs of a species and returns its part of the page.
 fn of_species(name: &str, folder: &Path) -> Result<String> {
     let species = validate_species(name, SPECIES_ALONE_UNTIL).map_err(|report| anyhow!(report.render(false)))?;
+    let called = species.species.about.common_name.clone().unwrap_or_else(|| name.to_owned());
+    let shown = species.shown_at();
+    let resolved = species.alone(name);
     let mut part = String::new();
     for (class, word) in CLASSES {
-        if let Some(age) = age_of(&species, name, class)? {
+        if let Some(age) = age_of(&resolved, shown, class)? {
             let file = format!("{}-{word}.png", name.replace('/', "-"));
-            draw(&species, name, (class, age), &folder.join(&file))?;
+            draw(&resolved, (class, age), &folder.join(&file))?;
             println!("{name}: {word} at age {age}");
             writeln!(part, "![{name}, {word}]({file} \"{name}: {word} at age {age}\")")?;
         }
     }
-    let called = species.species.about.common_name.as_deref().unwrap_or(name);
     Ok(if part.is_empty() { part } else { format!("\n## {name}: {called}\n\n{part}") })
 }
 
-/// The age at which the largest organ of a class stands.
-fn age_of(species: &ResolvedSpecies, name: &str, class: Class) -> Result<Option<Tick>> {
-    let resolved = species.alone(name);
-    let shown = species.shown_at();
+/// The age at which the largest organ of a class stands, up to half as old as the species is shown again.
+fn age_of(resolved: &Resolved, shown: Tick, class: Class) -> Result<Option<Tick>> {
     let ages: Vec<Tick> = (1..=(shown + shown / 2 + 1).min(resolved.scenario.ages.until)).collect();
     let mut best: Option<(f32, Tick)> = None;
-    Regrowth::of(&resolved).show(0, &ages, &mut |age, plant| {
+    Regrowth::of(resolved).show(0, &ages, &mut |age, plant| {
         if let Some(found) =
             Focus::size_of_largest(plant, age, class).filter(|size| best.is_none_or(|b| *size > 1.02 * b.0))
         {
@@ -75,9 +75,8 @@ fn age_of(species: &ResolvedSpecies, name: &str, class: Class) -> Result<Option<
     Ok(best.map(|(_, age)| age))
 }
 
-fn draw(species: &ResolvedSpecies, name: &str, (class, age): (Class, Tick), path: &Path) -> Result<()> {
-    let resolved = species.alone(name);
-    let pictured = pictured_plants(&Regrowth::of(&resolved), &[&species.species], &[0], &[age])?;
+fn draw(resolved: &Resolved, (class, age): (Class, Tick), path: &Path) -> Result<()> {
+    let pictured = pictured_plants(&Regrowth::of(resolved), &[&resolved.species], &[0], &[age])?;
     let stand = pictured.stands.first().and_then(|stand| stand.plants.first());
     let options = MeshOptions { detail: DETAIL, ..MeshOptions::default() };
     let focus = stand.and_then(|plant| Focus::of(plant, age, &options, Wanted::Largest(class)));
