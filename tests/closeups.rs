@@ -6,7 +6,7 @@
 
 mod program;
 
-use phytomer::outputs::meshes::{Face, Mesh, MeshOptions, Scene, Vertex};
+use phytomer::outputs::meshes::{Face, Mesh, MeshOptions, Scene};
 use phytomer::run::regrowth::Regrowth;
 use phytomer::sim::plant::{Class, OrganId, Plant};
 use phytomer_config::{Kind, presets, validate_species};

@@ -75,7 +75,8 @@ fn two_streams_reached_together_have_the_words_of_each() {
         for (from, other) in [(0, 0), (7, 1 << 40), ((1 << 36) - 1, 1 << 36), (31, 16)] {
             let mut streams = [Purpose::Bud, Purpose::Node].map(|purpose| random.stream(LineageKey(9), purpose));
             let [one, two] = &mut streams;
-            (one.seek(from), two.seek(other));
+            one.seek(from);
+            two.seek(other);
             let expected = [one.clone().word(), two.clone().word()];
             Stream::reach_both_by(kernel, one, two);
             assert_eq!([one.clone().word(), two.clone().word()], expected, "{kernel:?} from {from} and {other}");
