@@ -14,12 +14,14 @@ use program::run;
 use std::fs;
 use std::path::Path;
 
-/// The specimens with their ages; of what has no age the one at which its species is shown.
+/// The specimens with their ages; of what has no age the one at which its species is shown. The pollard stands before
+/// its second cutting: after its third, at age 40, where thick shoots leave a knuckle in sharp bends, its welded wood
+/// has 2.3 % less than the union (docs/meshes.md).
 const SPECIMENS: [(&str, Option<&str>); 6] = [
     ("coffee", Some("36")),
     ("willow", Some("60")),
-    ("wild_cherry", Some("60")),
-    ("pollard", None),
+    ("wild_cherry", Some("40")),
+    ("pollard", Some("20")),
     ("wp/quaking_aspen", None),
     ("abop/2.7a", None),
 ];

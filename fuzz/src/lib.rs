@@ -2,11 +2,11 @@
 //! memory.
 //!
 //! A species and a scenario go the whole way of `phytomer grow`; a mesh is read as a form, a weather file as its days,
-//! an L-system is grown with the files beside it (`lsystem`); a forest is read with its rasters (`forest`), and a tree
-//! of another program is converted, and plants of others are read and written (`exchange`); a script of the A-system is run; the plan of a ground is checked; a run folder, one
-//! of whose files is replaced, is checked, read and resumed. `fuzz_targets` hands these functions to libFuzzer, and
-//! `examples/fuzz` runs them on stable over broken copies of what ships (`seeds`, `broken`). Absent: files that are
-//! right, which the tests have.
+//! an L-system is grown with the files beside it (`lsystem`); a forest is read with its rasters (`forest`), a tree of
+//! another program is converted, and plants of others are read and written (`exchange`); a script of the A-system is
+//! run; the plan of a ground is checked; a run folder, one of whose files is replaced, is checked, read and resumed.
+//! `fuzz_targets` hands these functions to libFuzzer, and `examples/fuzz` runs them on stable over broken copies of
+//! what ships (`seeds`, `broken`). Absent: files that are right, which the tests have.
 
 #![forbid(unsafe_code)]
 

@@ -73,7 +73,8 @@ mod tests {
     /// Internodes of 0.1 m, 0.03 m wide at the base and 0.02 m at the tip; the branch leaves the third of the trunk.
     #[test]
     fn vertices_tell_order_radius_and_path() {
-        let plant = specimen();
+        let mut plant = specimen();
+        plant.axes.key[1] = LineageKey(!plant.axes.key[0].0);
         let options = MeshOptions { attributes: true, ..MeshOptions::default() };
         let scene = Scene::new(&plant, 6, &options);
         let columns = scene.columns().expect("columns");
