@@ -4,7 +4,7 @@
 //! They are the internodes as they stood at the end of the last tick, so no order of plants and no number of threads
 //! shows: each a straight piece of wood whose radius goes evenly from its base to its tip. From tick to tick they are
 //! kept, and what has come, moved, grown much thicker or fallen is entered anew in the cells of space that stems pass
-//! through ([`cells`]); so a bud far from all wood asks a cell or two. Buds that look around, as climbers do,
+//! through (`cells`); so a bud far from all wood asks a cell or two. Buds that look around, as climbers do,
 //! ask trees. What is near a bud is copied from here ([`Beside`]). Absent: leaves, flowers and fruits, which no shoot
 //! meets.
 
