@@ -326,8 +326,8 @@ fn put(stations: &mut Vec<Station>, mut station: Station) -> f64 {
     station.z
 }
 
-/// Puts points on a grid of [`STEP`], and moves those apart that have one place on it: readers merge what is nearer than
-/// a hundredth of a micrometre.
+/// Puts points on a grid of [`STEP`], and moves those apart that have one place on it: readers merge what is nearer
+/// than a hundredth of a micrometre.
 fn part(skin: &mut Skin) {
     let mut places: HashSet<[u32; 3]> = HashSet::with_capacity(skin.points.len());
     for (number, point) in skin.points.iter_mut().enumerate() {
