@@ -122,6 +122,7 @@ fn cylinder(line: usize, row: &[f64; 17], layout: &Layout, rows: usize, report: 
     let mut whole = |value: f64, what: &str| {
         if value.fract() != 0.0 || value.abs() > 1e15 {
             report.fault((line, 0), format!("the {what} is {value}"), "a whole number");
+            return 0;
         }
         value as i64
     };

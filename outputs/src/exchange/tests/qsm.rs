@@ -171,3 +171,18 @@ fn what_is_odd_about_axes_is_read_with_a_warning() {
     assert_eq!(tree.entities(), 11);
     assert_eq!(read("rtwig", &text(&written("rtwig", &tree).0)).0.entities(), 11);
 }
+
+#[test]
+fn numbers_beyond_all_whole_ones_are_told() {
+    let row = |parent: &str| format!("0.1 1 0 0 0 0 0 1 {parent} 0 0 0.1 1 0 1\n").replace(' ', "\t");
+    for parent in ["-1e300", "1e300", "0.5"] {
+        let (_, report) = read("treeqsm15", &row(parent));
+        assert!(report.is_refused(), "{parent}");
+        assert!(
+            report.faults().iter().any(|fault| fault.problem.starts_with("the parent is")),
+            "{:?}",
+            report.faults()
+        );
+    }
+    assert!(!read("treeqsm15", &row("0")).1.is_refused());
+}
