@@ -7,11 +7,12 @@
 //! the tests skip and say so, but never in CI. `PHYTOMER_RUN` names a run folder to read beside the small one grown
 //! here.
 
-#[path = "program/absent.rs"]
-mod absent;
 mod mixed;
+#[path = "program/reading.rs"]
+mod reading;
 
-use std::path::{Path, PathBuf};
+use reading::{absent, python, read};
+use std::path::Path;
 use std::process::Command;
 
 const ROOT: &str = env!("CARGO_MANIFEST_DIR");
@@ -29,23 +30,6 @@ meshes = { ages = [4, 10], plants = 1, sides = 8 }
 name = "site"
 level = [{ name = "level" }, { name = "roofed", site = { plane = [{ point_m = [0, 0, 1], normal = [0, 0, 1] }] } }]
 "#;
-
-/// The path of the Python with the readers; `None`, with the reason printed, where there is none.
-fn python() -> Option<PathBuf> {
-    let python = Path::new(ROOT).join(".venv/bin/python");
-    let found = Command::new(&python)
-        .arg(Path::new(ROOT).join("tests/readers/present.py"))
-        .arg(Path::new(ROOT).join("tests/readers/requirements.txt"))
-        .output();
-    let reason = match found {
-        Ok(found) if found.status.success() => return Some(python),
-        Ok(found) => String::from_utf8_lossy(&found.stderr).trim().to_owned(),
-        Err(error) => format!("{}: {error}", python.display()),
-    };
-    assert!(!absent::in_ci(), "CI must have the readers: {reason}");
-    absent::skip(&format!("no independent readers here ({reason}); .ci/run installs them"));
-    None
-}
 
 /// Mistakes in the files of `init`: the file, its right text, and the wrong text instead.
 const MISTAKES: [(&str, &str, &str); 8] = [
@@ -99,17 +83,6 @@ fn taplo(python: &Path, file: &Path) -> Option<String> {
     let told = String::from_utf8_lossy(&done.stderr).into_owned();
     assert!(done.status.success() != told.contains("error: "), "{}: {told}", file.display());
     (!done.status.success()).then_some(told)
-}
-
-fn read(python: &Path, script: &str, arguments: &[&str]) {
-    let done = Command::new(python)
-        .arg(Path::new(ROOT).join("tests/readers").join(script))
-        .args(arguments)
-        .output()
-        .expect("python runs");
-    let told = format!("{}{}", String::from_utf8_lossy(&done.stdout), String::from_utf8_lossy(&done.stderr));
-    assert!(done.status.success(), "{script} {arguments:?}:\n{told}");
-    println!("{told}");
 }
 
 #[test]

@@ -3,7 +3,7 @@
 //! Where they are missing a test skips and says so, but never in CI.
 
 #[path = "absent.rs"]
-mod absent;
+pub mod absent;
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
