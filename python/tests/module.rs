@@ -4,6 +4,7 @@
 //! They need `.venv`, which `.ci/run` fills from `tests/readers/requirements.txt`. Where it is missing they skip and
 //! say so, but never in CI. The stubs are held against the module by `stubtest`, of mypy.
 
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
@@ -87,4 +88,45 @@ fn the_notebooks_run() {
     let notebooks = Path::new(HERE).join("notebooks");
     let words = [&runner, &notebooks].map(|path| path.to_str().expect("a path"));
     ran(&python, folder.path(), &words);
+}
+
+/// Every CPython from 3.11 on that is on the path or that pyenv has installed, by its version.
+fn pythons() -> BTreeMap<String, PathBuf> {
+    let path = std::env::var_os("PATH").unwrap_or_default();
+    let mut folders: Vec<PathBuf> = std::env::split_paths(&path).collect();
+    let home = std::env::var_os("PYENV_ROOT").map(PathBuf::from);
+    let home = home.or_else(|| std::env::var_os("HOME").map(|home| Path::new(&home).join(".pyenv")));
+    let versions = home.and_then(|home| fs::read_dir(home.join("versions")).ok());
+    folders.extend(versions.into_iter().flatten().flatten().map(|entry| entry.path().join("bin")));
+    let mut found = BTreeMap::new();
+    for folder in folders {
+        let names = ["python3".to_owned()].into_iter().chain((11..30).map(|minor| format!("python3.{minor}")));
+        for python in names.map(|name| folder.join(name)).filter(|python| python.is_file()) {
+            let asks = "import sys; v = sys.version_info; \
+                        print('%03d.%d' % (v[1], v[2]) if sys.implementation.name == 'cpython' and v >= (3, 11) else '')";
+            let Ok(told) = Command::new(&python).args(["-c", asks]).output() else { continue };
+            let version = String::from_utf8_lossy(&told.stdout).trim().to_owned();
+            if told.status.success() && !version.is_empty() {
+                found.entry(version).or_insert(python);
+            }
+        }
+    }
+    found
+}
+
+/// One module serves all of them, since it is built for the stable interface of 3.11.
+#[test]
+fn every_python_that_is_found_grows_the_same_plants() {
+    let folder = tempfile::tempdir().expect("a folder");
+    installed(folder.path());
+    let script = Path::new(HERE).join("tests/anywhere.py");
+    let mut told = BTreeMap::new();
+    for (version, python) in pythons() {
+        println!("3.{} at {}", version.trim_start_matches('0'), python.display());
+        let output = ran(&python, folder.path(), &["-B", script.to_str().expect("a path")]);
+        told.insert(version, String::from_utf8_lossy(&output.stdout).into_owned());
+    }
+    assert!(!told.is_empty() || std::env::var_os("CI").is_none(), "CI must have a CPython from 3.11 on");
+    let all: BTreeSet<&String> = told.values().collect();
+    assert!(all.len() <= 1, "{told:#?}");
 }

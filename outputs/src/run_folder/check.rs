@@ -300,11 +300,13 @@ fn trouble_of(path: &Path, named: &FileReport, depth: Depth, checking: &Checking
         Err(_) if checking.stop.load(Relaxed) => Err(Error::Stopped),
         Err(error) => unreadable(error),
         Ok((_, sha256)) if sha256 == named.sha256 => Ok(None),
-        Ok((_, sha256)) => {
-            let how = format!("its SHA-256 is {sha256}, and {} is recorded", named.sha256);
-            Ok(Some(Trouble::Damaged(how)))
-        }
+        Ok((_, sha256)) => Ok(Some(Trouble::Damaged(other_hash(&sha256, named)))),
     }
+}
+
+/// How a file with this hash differs from the one that is recorded.
+pub fn other_hash(sha256: &str, named: &FileReport) -> String {
+    format!("its SHA-256 is {sha256}, and {} is recorded", named.sha256)
 }
 
 /// The faults of `run.json` and of the lines of the journal. A torn last line of an unfinished run is no fault: its

@@ -113,6 +113,12 @@ pub enum Error {
     /// Folders do not make up one run.
     #[error("these folders cannot be merged; nothing was written:\n{0}")]
     Merge(MergeFaults),
+    /// Files of folders that are merged are damaged; the parts without damage were copied.
+    #[error(
+        "files of these folders are damaged; the parts without damage are merged, and --resume goes on when the others are \
+         mended:\n{0}"
+    )]
+    Shares(MergeFaults),
     /// The caller stopped the check of the files.
     #[error("the check of the files was stopped")]
     Stopped,

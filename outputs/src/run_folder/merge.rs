@@ -1,9 +1,12 @@
 //! Merges folders that hold shares of one run into one folder with the bytes of a run that was grown at once.
 //!
 //! The folders must be of one run (scenario, seed, program, inputs: the fingerprint), be sound byte for byte, and hold
-//! each part once. All that is wrong is told together, before anything is written. Then each part is copied beside its
-//! final name, hashed on the way, renamed and entered in the journal, so that an interrupted merge can be resumed as a
-//! run is. Only the timings in `run.json` are not those of a run that was grown at once: they are the sums of those of
+//! each part once. All that the documents and the lengths of the files tell to be wrong is told together, before anything
+//! is written; then every byte is read as well, so that nothing that is wrong stays untold. Else each part is copied
+//! beside its final name, hashed on the way, renamed and entered in the journal, so that an interrupted merge can be
+//! resumed as a run is. So a merge of sound folders reads each byte once. A part whose hash is another one is told with
+//! all others of its kind, and is not entered. Before a run is replaced, and before files are linked, every byte is read:
+//! what is lost or shared then must not be lost for a damaged file. Only the timings in `run.json` are not those of a run that was grown at once: they are the sums of those of
 //! the folders. Absent: growing what is missing.
 
 use super::check::{self, Checking, Checkup, Depth, State};
@@ -65,7 +68,8 @@ struct Source {
 /// copies.
 ///
 /// # Errors
-/// [`Error::Merge`] with all that is wrong with the folders; else as [`RunFolder::open`](super::RunFolder::open).
+/// [`Error::Merge`] with all that is wrong with the folders; [`Error::Shares`] with the damaged files that were found
+/// while the others were copied; else as [`RunFolder::open`](super::RunFolder::open).
 pub fn merge(into: &Path, parts: &[PathBuf], mode: Mode, opening: &Opening) -> Result<Merged, Error> {
     merge_by(Files::Copied, into, parts, (mode, opening))
 }
@@ -80,7 +84,14 @@ pub fn merge_by(
     parts: &[PathBuf],
     (mode, opening): (Mode, &Opening),
 ) -> Result<Merged, Error> {
-    let sources = gathered(into, parts, opening.checking)?;
+    let replaces = mode == Mode::Overwrite && Papers::read(into).is_ok_and(|papers| papers.is_run());
+    let sources = match files {
+        Files::Copied if !replaces => match gathered(into, parts, (Depth::Lengths, opening.checking)) {
+            Err(Error::Merge(_)) => gathered(into, parts, (Depth::Bytes, opening.checking)),
+            gathered => gathered,
+        },
+        _ => gathered(into, parts, (Depth::Bytes, opening.checking)),
+    }?;
     let Some(first) = sources.first() else { return Err(Error::Merge(MergeFaults(Vec::new()))) };
     let drafts = Drafts::of(&first.folder, &first.run)?;
     let target = Target::open(into, &drafts, &first.run, (mode, opening))?;
@@ -90,10 +101,16 @@ pub fn merge_by(
     let is_missing = |(_, shard): &&(&Path, &ShardReport)| !target.journal().done().contains_key(&shard.shard);
     let missing: Vec<_> = all.iter().filter(is_missing).collect();
     opening.checking.begin_copying(missing.iter().map(|(_, shard)| shard.bytes()).sum());
-    let adopt = || missing.par_iter().try_for_each(|(from, shard)| target.adopt(files, from, shard, opening.checking));
-    match rayon::ThreadPoolBuilder::new().num_threads(COPIES_AT_ONCE).build() {
-        Ok(pool) => pool.install(adopt)?,
-        Err(_) => adopt()?,
+    let adopted = || -> Result<Vec<Option<MergeFault>>, Error> {
+        missing.par_iter().map(|(from, shard)| target.adopt(files, from, shard, opening.checking)).collect()
+    };
+    let adopted = match rayon::ThreadPoolBuilder::new().num_threads(COPIES_AT_ONCE).build() {
+        Ok(pool) => pool.install(adopted)?,
+        Err(_) => adopted()?,
+    };
+    let damaged: Vec<MergeFault> = adopted.into_iter().flatten().collect();
+    if !damaged.is_empty() {
+        return Err(Error::Shares(MergeFaults(damaged)));
     }
     let timings = timings_of(&sources);
     let timings: Vec<(&str, f64)> = timings.iter().map(|(name, seconds)| (name.as_str(), *seconds)).collect();
@@ -103,8 +120,8 @@ pub fn merge_by(
     Ok(Merged { report, shards: all.len() as u32, copied: missing.len() as u32 })
 }
 
-/// The folders, where they make up one run.
-fn gathered(into: &Path, parts: &[PathBuf], checking: &Checking) -> Result<Vec<Source>, Error> {
+/// The folders, where they make up one run, as far as a look of this depth tells.
+fn gathered(into: &Path, parts: &[PathBuf], look: (Depth, &Checking)) -> Result<Vec<Source>, Error> {
     let mut faults = Vec::new();
     let mut sources: Vec<Source> = Vec::new();
     for folder in parts {
@@ -112,7 +129,7 @@ fn gathered(into: &Path, parts: &[PathBuf], checking: &Checking) -> Result<Vec<S
             faults.push(MergeFault::Target { folder: folder.clone() });
             continue;
         }
-        match Source::of(folder, checking, &mut faults) {
+        match Source::of(folder, look, &mut faults) {
             Ok(None) => {}
             Ok(Some(source)) => match sources.first().and_then(|first| source.differs(first)) {
                 Some(fault) => faults.push(fault),
@@ -146,8 +163,12 @@ fn is_same(a: &Path, b: &Path) -> bool {
 
 impl Source {
     /// Reads and checks a folder; `None` where it cannot be used, which the faults tell.
-    fn of(folder: &Path, checking: &Checking, faults: &mut Vec<MergeFault>) -> Result<Option<Self>, Error> {
-        let found = check::check(folder, Depth::Bytes, checking)?;
+    fn of(
+        folder: &Path,
+        (depth, checking): (Depth, &Checking),
+        faults: &mut Vec<MergeFault>,
+    ) -> Result<Option<Self>, Error> {
+        let found = check::check(folder, depth, checking)?;
         if let (State::InProgress, Some(holder)) = (found.state, &found.holder) {
             faults.push(MergeFault::InProgress { folder: folder.to_path_buf(), holder: holder.clone() });
             return Ok(None);
@@ -273,13 +294,27 @@ impl Target {
         self.journal.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Takes the files of a shard from another folder of the same run and enters the shard in the journal.
-    fn adopt(&self, files: Files, from: &Path, report: &ShardReport, checking: &Checking) -> Result<(), Error> {
-        report.files.iter().try_for_each(|file| match files {
-            Files::Linked if self.link(from, file)? => Ok(()),
-            _ => self.copy(from, file, checking),
-        })?;
-        self.journal().enter(report.clone())
+    /// Takes the files of a shard from another folder of the same run and enters the shard in the journal; where one
+    /// is damaged, its fault, and the shard is not entered.
+    fn adopt(
+        &self,
+        files: Files,
+        from: &Path,
+        report: &ShardReport,
+        checking: &Checking,
+    ) -> Result<Option<MergeFault>, Error> {
+        for file in &report.files {
+            if files == Files::Linked && self.link(from, file)? {
+                continue;
+            }
+            let sha256 = self.copy(from, file, checking)?;
+            if sha256 != file.sha256 {
+                let how = check::other_hash(&sha256, file);
+                return Ok(Some(MergeFault::Damaged { folder: from.to_path_buf(), file: file.path.clone(), how }));
+            }
+        }
+        self.journal().enter(report.clone())?;
+        Ok(None)
     }
 
     /// Gives a file its name in this folder too; `false` where the file system has no links. The check of the sources
@@ -298,7 +333,8 @@ impl Target {
         Ok(true)
     }
 
-    fn copy(&self, from: &Path, file: &FileReport, checking: &Checking) -> Result<(), Error> {
+    /// Copies a file, and tells its hash. It has its name in this folder only if that is the recorded one.
+    fn copy(&self, from: &Path, file: &FileReport, checking: &Checking) -> Result<String, Error> {
         let (source, to) = (from.join(&file.path), self.path.join(&file.path));
         if let Some(folder) = to.parent() {
             fs::create_dir_all(folder).map_err(Error::io("create", folder))?;
@@ -309,10 +345,14 @@ impl Target {
         let done = match copied {
             Err(_) if checking.is_stopped() => Err(Error::Stopped),
             Err(error) => Err(Error::io("copy", &source)(error)),
-            Ok(()) => match copy.finish()? {
-                (_, sha256) if sha256 == file.sha256 => Ok(durable::rename(&staged, &to)?),
-                _ => Err(Error::io("copy", &source)(io::Error::other("it changed while it was copied"))),
-            },
+            Ok(()) => copy.finish().map_err(Error::from).and_then(|(_, sha256)| {
+                if sha256 == file.sha256 {
+                    durable::rename(&staged, &to)?
+                } else {
+                    durable::remove(&staged)?
+                }
+                Ok(sha256)
+            }),
         };
         done.inspect_err(|_| _ = fs::remove_file(&staged))
     }

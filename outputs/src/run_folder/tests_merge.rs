@@ -162,6 +162,43 @@ fn gaps_overlaps_damage_and_other_runs_are_told_together() {
     assert_eq!(all.len(), expected.len(), "{all:#?}");
 }
 
+/// Only the bytes of two files tell that they are damaged: their lengths and the documents are sound.
+#[test]
+fn a_damaged_file_is_found_on_the_way_and_what_is_sound_is_merged() {
+    let (home, [first, second], whole) = shared();
+    let merged = home.path().join("merged");
+    let parts = [first.clone(), second.clone()];
+    let files = [first.join("summary/part-00002.parquet"), second.join("summary/part-00001.parquet")];
+    let sound = files.clone().map(|file| fs::read(file).unwrap());
+    let damage = || {
+        for (file, sound) in files.iter().zip(&sound) {
+            let mut bytes = sound.clone();
+            bytes[40] ^= 1;
+            fs::write(file, bytes).unwrap();
+        }
+    };
+    damage();
+    let told = merge_into(&merged, &parts, Mode::New).unwrap_err();
+    let words = told.to_string();
+    let Error::Shares(MergeFaults(faults)) = told else { panic!("{words}") };
+    assert_eq!(faults.len(), 2, "{words}");
+    assert!(words.contains("part-00001.parquet: its SHA-256") && words.contains("part-00002.parquet: its SHA-256"));
+    let left = check(&merged, Depth::Bytes, &Checking::default()).unwrap();
+    assert_eq!((left.state, left.to_grow), (State::Unfinished, vec![1, 2]));
+    assert!(left.findings.is_empty(), "{:?}", left.findings);
+
+    for (file, sound) in files.iter().zip(&sound) {
+        fs::write(file, sound).unwrap();
+    }
+    assert_eq!(merge_into(&merged, &parts, Mode::Resume).unwrap().copied, 2);
+    assert!(contents(&merged) == contents(&whole));
+
+    // A whole run is not replaced by a damaged one.
+    damage();
+    assert_eq!(faults(merge_into(&merged, &parts, Mode::Overwrite).unwrap_err()).len(), 2);
+    assert!(contents(&merged) == contents(&whole));
+}
+
 /// Nobody has closed the second share, though all its parts are there.
 #[test]
 fn a_share_without_its_end_and_an_empty_share_are_told() {
