@@ -18,6 +18,10 @@ use std::rc::Rc;
 /// The most steps of summation: a second or so.
 const MOST_WORK: u64 = 40_000_000;
 
+/// What a clock step of a cohort costs beside the work on its cells, in steps of summation: its lists, and the chances of
+/// all its laws.
+const WORK_OF_STEP: u64 = 6;
+
 /// The most growth units whose sums are kept for each order.
 const MOST_UNITS: usize = 50_000;
 
@@ -125,7 +129,7 @@ impl<'a> Cohorts<'a> {
                 cycle += 1;
                 let at = At { age: tick, dimension, cycle, ..At::default() };
                 self.step(&cohort, &living, &mut after, at);
-                self.work += cells;
+                self.work += WORK_OF_STEP + cells;
                 std::mem::swap(&mut living, &mut after);
                 if self.work > MOST_WORK {
                     return None;
