@@ -12,7 +12,7 @@ use phytomer_config::forest::{Elevation, Forest, Raster, ResolvedForest};
 use phytomer_config::{Resolved, ResolvedSpecies, Trial};
 use phytomer_forest::{Count, Cover, Georeference, Heights, Planting, RasterFault, What, write_instances};
 use phytomer_models::fault::{Fault, Path};
-use phytomer_outputs::meshes::{MeshOptions, Scene, Tolerance};
+use phytomer_outputs::meshes::{Drawing, MeshOptions, Pictures, PlantDrawing, Scene, Tolerance};
 use phytomer_outputs::{Destination, FileError};
 use phytomer_usd::{Asked, Encoding, Organs, Planted, Stand, write_plant, write_scene};
 use std::fs;
@@ -232,6 +232,18 @@ fn write_stands(
     Ok(())
 }
 
+/// Writes the pictures of a mesh beside it.
+fn write_pictures(pictures: &Pictures, folder: &FilePath) -> Result<(), ForestError> {
+    for (picture, name) in pictures.files() {
+        let path = folder.join(name);
+        let mut file = Destination::create(&path)?;
+        let written = file.write_all(&picture.bytes);
+        written.map_err(|error| ForestError::Write(path.display().to_string(), error))?;
+        file.finish()?;
+    }
+    Ok(())
+}
+
 /// The variants of a species.
 struct Variants<'a> {
     species: &'a ResolvedSpecies,
@@ -261,19 +273,23 @@ impl Variants<'_> {
             let file = format!("meshes/{}_{variant}.usdc", self.file_name(&name));
             say(&file);
             let mut out = Destination::create(&folder.join(&file))?;
-            let asked = Asked {
+            let mut asked = Asked {
                 encoding: Encoding::Binary,
                 organs: Organs::Merged,
                 words: format!("{name}, variant {variant} at age {age}"),
+                pictures: Pictures::default(),
             };
             let shown = regrowth.show(variant, &[age], &mut |age, plant| {
                 let scene = Scene::new(plant, age, &options);
                 check_size(&scene)?;
+                let drawing = PlantDrawing { scene: &scene, about: scene.about(scenario.seed) };
+                asked.pictures = Pictures::of(&drawing.slots(), &self.file_name(&name));
                 write_plant(&asked, &scene, scenario.seed, &mut out)?;
                 Ok(())
             });
             shown.map_err(failed)?;
             out.finish()?;
+            write_pictures(&asked.pictures, &folder.join("meshes"))?;
             files.push(file);
         }
         Ok(Stand { name, files })

@@ -294,7 +294,12 @@ fn usd_of(resolved: &Resolved) -> usize {
         });
         shown.expect("a plant");
         let (lives, options, members) = ([maker.finish()], [MeshOptions::default()], [Member::default()]);
-        let asked = Asked { encoding: Encoding::Binary, organs: Organs::Instances, words: String::new() };
+        let asked = Asked {
+            encoding: Encoding::Binary,
+            organs: Organs::Instances,
+            words: String::new(),
+            pictures: Default::default(),
+        };
         let (plants, pace) = (Plants::of(&lives, &options, &members), Pace { a_tick: 1.0, a_second: 24.0 });
         let mut file = Destination::create(&home.path().join("life.usdc")).expect("a file");
         write_life(&asked, &plants, 1e-3, &pace, &mut file).expect("room on the disk");

@@ -59,7 +59,12 @@ impl Specimen {
         let (plant, age) = last.expect("a plant");
         let scene =
             Scene::new(&plant, age, &MeshOptions { tolerance: Some(Tolerance::of(NEAR)), ..MeshOptions::default() });
-        let asked = Asked { encoding: Encoding::Binary, organs: Organs::Instances, words: String::new() };
+        let asked = Asked {
+            encoding: Encoding::Binary,
+            organs: Organs::Instances,
+            words: String::new(),
+            pictures: Default::default(),
+        };
         self.against_a_plain_write(criterion, "USD of an age (bytes)", &|out| usd::write_plant(&asked, &scene, 0, out));
         let (lives, options): ([Life; 1], _) = ([maker.finish()], [MeshOptions::default()]);
         let members = [Member::default()];

@@ -5,10 +5,12 @@
 
 use phytomer_law::fault::{Fault, Path};
 use phytomer_law::{Constant, ValueRange};
+use phytomer_looks::Flare;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::architectural_model::ArchitecturalModel;
+use crate::material::{self, Material};
 use crate::published::{PUBLISHED, Published};
 
 /// The keys of a species file that do not belong to its growth model.
@@ -59,6 +61,13 @@ pub struct About {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 1, max = 65_535))]
     pub shown_at: Option<u32>,
+    /// How the foot of the trunk widens into its roots, in meshes and pictures; tables have the wood without it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub flare: Option<Flare>,
+    /// The pictures that cover bark, leaves, flowers and fruits in meshes that hold textures.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[schemars(length(max = 64))]
+    pub material: Vec<Material>,
 }
 
 /// The allowed numbers of ticks in a year.
@@ -71,7 +80,8 @@ impl About {
         let published = self.published.iter().enumerate().flat_map(|(i, row)| row.faults(&path.index(i)));
         let path = Path::root().key("ticks_per_year");
         let year = self.ticks_per_year.as_ref().and_then(|ticks| ticks.within(&path, YEAR).err());
-        year.into_iter().chain(self.fault_of_seasons()).chain(published).collect()
+        let materials = material::faults(&self.material);
+        year.into_iter().chain(self.fault_of_seasons()).chain(published).chain(materials).collect()
     }
 
     fn fault_of_seasons(&self) -> Option<Fault> {

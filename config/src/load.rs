@@ -14,6 +14,7 @@ use crate::document::{self, Node};
 use crate::forms;
 use crate::inherit::merge_chain;
 use crate::library::{Kind, Library};
+use crate::material;
 use crate::meaning;
 use crate::models::{MODELS, Model, ModelName, any_file};
 use crate::places;
@@ -140,6 +141,7 @@ impl Loader {
         let mut refused = Vec::new();
         woods::fill(&mut node, keys, &mut self.sources, &mut refused);
         forms::resolve(&mut node, keys, &self.sources, &mut refused);
+        material::resolve(&mut node, &self.sources, &mut refused);
         beside::fill(&mut node, keys, &self.library, &mut self.sources, &mut refused);
         schema::check(name.schema(), &node, &mut refused);
         self.faults.extend(refused.iter().cloned());

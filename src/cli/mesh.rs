@@ -75,9 +75,10 @@ pub struct Mesh {
     #[arg(long, value_parser = age)]
     age: Option<Moment>,
     /// The file to write; its ending tells the format: `.ply`, `.glb` (glTF, Y up), `.stl` (binary, triangles alone),
-    /// or USD: `.usdc` (binary), `.usda` (text), `.usdz` (a package). `-` is PLY on stdout. A link stays, and its
-    /// target is replaced; a pipe or a device is written through.
-    #[arg(long, value_name = "FILE.ply|.glb|.stl|.usdc")]
+    /// `.obj` (with a library of materials beside it), or USD: `.usdc` (binary), `.usda` (text), `.usdz` (a package).
+    /// Pictures of materials stand beside an OBJ file and beside USD that is no package. `-` is PLY on stdout. A link
+    /// stays, and its target is replaced; a pipe or a device is written through.
+    #[arg(long, value_name = "FILE.ply|.glb|.stl|.usdc|.obj")]
     out: PathBuf,
     /// Sides of the tube that an internode is drawn as.
     #[arg(long, default_value_t = 8, value_parser = clap::value_parser!(u32).range(3..=64))]
@@ -185,7 +186,7 @@ impl Mesh {
                 refused = Some(misuse);
                 return Ok(());
             }
-            let written = check_size(&scene).and_then(|()| format.write_plant(&scene, seed, &mut file));
+            let written = check_size(&scene).and_then(|()| format.write_plant(&scene, seed, &mut file, &self.out));
             Ok(written.with_context(|| self.failing())?)
         })?;
         match refused {
@@ -238,7 +239,7 @@ impl Mesh {
             within.iter().for_each(|tolerance| mesh.within(*tolerance));
             let scenes = mesh.bodies.iter().map(|body| Scene::new(body.plant, body.age, &body.options));
             self.joining.has_wood(&what, &scenes.collect::<Vec<_>>())?;
-            format.write_plot(&mesh, &mut file).with_context(|| self.failing())?;
+            format.write_plot(&mesh, &mut file, &self.out).with_context(|| self.failing())?;
         }
         let joined = self.joining.in_words();
         let plants = amounts::of(pictured.stands.iter().map(|stand| stand.members.len() as u64).sum(), "plant");

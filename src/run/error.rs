@@ -25,17 +25,21 @@ pub enum RunError {
     /// The meshes that the species names do not hold together, for no reason that a fault tells.
     #[error("the meshes of the species cannot be read")]
     Forms,
-    /// A mesh that the species names cannot be read.
-    #[error("cannot read the mesh {name}")]
+    /// A mesh or a picture that the species names cannot be read.
+    #[error("cannot read the {what} {name}")]
     Form {
+        /// What the file should be.
+        what: &'static str,
         /// The file, as the species names it.
         name: String,
         /// The system's answer.
         source: io::Error,
     },
-    /// A mesh that the species names has changed since the run.
-    #[error("the mesh {name} is not the one with which the run was made")]
+    /// A mesh or a picture that the species names has changed since the run.
+    #[error("the {what} {name} is not the one with which the run was made")]
     FormChanged {
+        /// What the file is.
+        what: &'static str,
         /// The file, as the species names it.
         name: String,
     },

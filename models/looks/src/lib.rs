@@ -7,6 +7,7 @@
 //! there. Absent: triangles and the colours of components without a stated colour (`phytomer_meshes`), and how a file
 //! states forms and colours (`phytomer_models`).
 
+mod flare;
 mod form;
 mod near;
 mod paint;
@@ -14,6 +15,7 @@ pub mod polygon;
 mod section;
 mod surface;
 
+pub use flare::Flare;
 pub use form::{FormName, own_form, place_of_own};
 pub use near::{Apex, Base, Blade, Capitulum, Flower, GOLDEN_DEG, MOST_DETAIL, Margin, Near, Rim, Unsound};
 pub use paint::{Bark, Colour, InternodePaint, OrganPaint, Paints};

@@ -1,11 +1,13 @@
 //! A GLB file: the JSON that says what is in it, and the binary part that follows (glTF 2.0 §4.4).
 //!
 //! Views and accessors are entered before their bytes are made, so that the JSON, which stands first in the file, can
-//! be written first, and the bytes after it as they come. Every view begins at a multiple of four bytes. Absent: what
-//! the bytes are, and anything that refers to other files.
+//! be written first, and the bytes after it as they come. Every view begins at a multiple of four bytes. Pictures are
+//! in the file. Absent: what the bytes are, and anything that refers to other files.
 
+use phytomer_meshes::Picture;
 use serde_json::{Map, Value, json};
 use std::io::{self, Write};
+use std::sync::Arc;
 
 /// The largest file, bytes: its length is a number of 32 bits.
 pub const MOST_BYTES: u64 = u32::MAX as u64;
@@ -77,6 +79,11 @@ pub struct Document {
     pub roots: Vec<usize>,
     pub meshes: Vec<Value>,
     materials: Vec<Value>,
+    images: Vec<Value>,
+    samplers: Vec<Value>,
+    textures: Vec<Value>,
+    /// The pictures of the images, in their order.
+    pictures: Vec<Arc<Picture>>,
     pub skins: Vec<Value>,
     pub animations: Vec<Value>,
     /// Extensions that the file uses, and those of them without which it cannot be read.
@@ -137,11 +144,27 @@ impl Document {
 
     /// Enters a material, unless it is there; its index.
     pub fn material(&mut self, material: Value) -> usize {
-        let known = self.materials.iter().position(|known| *known == material);
-        known.unwrap_or_else(|| {
-            self.materials.push(material);
-            self.materials.len() - 1
-        })
+        place_in(&mut self.materials, material)
+    }
+
+    /// Enters a picture as a texture, unless it is there; its index. Its bytes are added to those of the views. On bark
+    /// it repeats, on an organ it ends at its edges.
+    pub fn texture(&mut self, picture: &Arc<Picture>, repeats: bool, bytes: &mut Vec<u8>) -> usize {
+        let known = self.pictures.iter().position(|known| known == picture);
+        let image = known.unwrap_or_else(|| {
+            let view = self.view(picture.bytes.len() as u64, None, None);
+            bytes.extend_from_slice(&picture.bytes);
+            bytes.resize(padded(bytes.len() as u64) as usize, 0);
+            let kind = if picture.is_jpeg { "image/jpeg" } else { "image/png" };
+            self.images.push(json!({ "name": picture.name, "bufferView": view, "mimeType": kind }));
+            self.pictures.push(Arc::clone(picture));
+            self.images.len() - 1
+        });
+        let wrap = if repeats { 10497 } else { 33071 };
+        // Linear between pixels, and between the pictures of two sizes.
+        let sampler = json!({ "magFilter": 9729, "minFilter": 9987, "wrapS": wrap, "wrapT": wrap });
+        let sampler = place_in(&mut self.samplers, sampler);
+        place_in(&mut self.textures, json!({ "source": image, "sampler": sampler }))
     }
 
     /// Writes all that stands before the bytes of the views, which must follow, in their order, each padded to a
@@ -180,6 +203,9 @@ impl Document {
             ("nodes", self.nodes),
             ("meshes", self.meshes),
             ("materials", self.materials),
+            ("textures", self.textures),
+            ("samplers", self.samplers),
+            ("images", self.images),
             ("skins", self.skins),
             ("animations", self.animations),
             ("accessors", self.accessors),
@@ -193,6 +219,14 @@ impl Document {
         }
         file
     }
+}
+
+/// The place of a value in a list, to which it is added unless it is there.
+fn place_in(list: &mut Vec<Value>, value: Value) -> usize {
+    list.iter().position(|known| *known == value).unwrap_or_else(|| {
+        list.push(value);
+        list.len() - 1
+    })
 }
 
 /// The next multiple of four.

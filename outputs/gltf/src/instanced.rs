@@ -8,12 +8,12 @@
 //! which move vertices.
 
 use super::document::{Accessor, Document, INDICES, MOST_BYTES, Number, VERTICES, pad, too_large};
-use super::paint::{class_of_kind, material};
+use super::paint::{class_of_kind, enter_material};
 use super::still::{SHAPE, Still, put_shape, y_up};
+use super::tangents::Tangents;
 use glam::Quat;
 use phytomer_life::{Life, Member, Model, Models, Part, StillOrgans, between, wood_of, wood_of_plot};
-use phytomer_meshes::{Drawing, PlantDrawing, PlotMesh, Scene, Vertex};
-use phytomer_sim::plant::Kind;
+use phytomer_meshes::{Drawing, PlantDrawing, PlotMesh, Scene, Slot, Vertex};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 use std::io::{self, Write};
@@ -48,14 +48,26 @@ fn write(wood: &dyn Drawing, organs: &StillOrgans, out: &mut (dyn Write + Send))
         return Err(too_large(bytes));
     }
     let mut models = Models::of(&organs.lives, &organs.options);
-    let groups: Vec<Groups> =
-        organs.lives.iter().enumerate().map(|(number, life)| grouped(number, life, &mut models)).collect();
+    let slots = wood.slots();
+    let grouped = |(number, life)| {
+        let member = organs.members.iter().position(|member| member.life == number).unwrap_or_default();
+        grouped((number, life), &mut models, &|part| {
+            slots.of_component(member, part.component, class_of_kind(part.kind))
+        })
+    };
+    let groups: Vec<Groups> = organs.lives.iter().enumerate().map(grouped).collect();
     let mut filled = Filled::default();
-    let shapes: Vec<Shape> = models.made().iter().map(|(kind, model)| filled.enter_shape(*kind, model)).collect();
+    let mut shapes = Shapes::new();
+    for key in groups.iter().flat_map(Groups::keys) {
+        if !shapes.contains_key(key) {
+            let shape = filled.enter_shape(&slots.list()[key.1], &models.made()[key.0].1);
+            shapes.insert(*key, shape);
+        }
+    }
     let names = models.names();
     let bodies: Vec<Vec<Value>> = groups
         .iter()
-        .map(|groups| groups.iter().map(|(model, of)| filled.enter(&names[*model], &shapes[*model], of)).collect())
+        .map(|groups| groups.iter().map(|(key, of)| filled.enter(&names[key.0], &shapes[key], of)).collect())
         .collect();
     for (member, name) in organs.members.iter().zip(&organs.names) {
         filled.stand(member, name, &bodies[member.life]);
@@ -64,11 +76,17 @@ fn write(wood: &dyn Drawing, organs: &StillOrgans, out: &mut (dyn Write + Send))
         filled.file.uses.push(EXTENSION);
         filled.file.requires.push(EXTENSION);
     }
-    still.write(filled.file, &filled.bytes, out)
+    still.write(filled.file, filled.bytes, out)
 }
 
-/// The organs of a life by their models.
-type Groups = BTreeMap<usize, Vec<Placed>>;
+/// A model, and the slot of its material.
+type Key = (usize, usize);
+
+/// The organs of a life by their models and slots.
+type Groups = BTreeMap<Key, Vec<Placed>>;
+
+/// The shapes that were entered.
+type Shapes = BTreeMap<Key, Shape>;
 
 /// An organ in the axes of glTF.
 struct Placed {
@@ -85,18 +103,18 @@ struct Shape {
     vertices: u64,
     bounds: [[f32; 3]; 2],
     /// The other attributes, which are the same wherever the model stands.
-    others: [(&'static str, usize); 3],
+    others: Vec<(&'static str, usize)>,
     indices: usize,
     material: usize,
 }
 
-fn grouped(number: usize, life: &Life, models: &mut Models) -> Groups {
+fn grouped((number, life): (usize, &Life), models: &mut Models, slot: &dyn Fn(&Part) -> usize) -> Groups {
     let mut groups = Groups::new();
     let age = life.ages.first().copied().unwrap_or_default();
     for part in &life.parts {
         let model = models.meet(number, part, between(life.tints_of_part(part), age));
         let placed = placed(life, part, age, &models.made()[model].1);
-        groups.entry(model).or_default().push(placed);
+        groups.entry((model, slot(part))).or_default().push(placed);
     }
     groups
 }
@@ -132,10 +150,11 @@ impl Filled {
         self.file.view(bytes.len() as u64, stride, target)
     }
 
-    fn enter_shape(&mut self, kind: Kind, model: &Model) -> Shape {
+    fn enter_shape(&mut self, slot: &Slot, model: &Model) -> Shape {
+        let material = enter_material(slot, &mut self.file, &mut self.bytes);
         let mesh = &model.mesh;
         let mut bytes = Vec::new();
-        mesh.vertices.iter().for_each(|vertex| put_shape(vertex, &mut bytes));
+        mesh.vertices.iter().for_each(|vertex| put_shape(vertex, slot.texture.is_some(), &mut bytes));
         let vertices = mesh.vertices.len() as u64;
         let view = self.view(&bytes, Some(SHAPE), Some(VERTICES));
         let of = |number, shape, offset| Accessor::of(view, number, shape, vertices).at(offset);
@@ -144,13 +163,20 @@ impl Filled {
             ("TEXCOORD_0", of(Number::F32, "VEC2", 24)),
             ("COLOR_0", of(Number::U16, "VEC4", 32).normalized()),
         ];
-        let others = others.map(|(name, accessor)| (name, self.file.accessor(accessor)));
+        let mut others: Vec<(&str, usize)> =
+            others.into_iter().map(|(name, accessor)| (name, self.file.accessor(accessor))).collect();
+        if slot.texture.as_ref().is_some_and(|texture| texture.normals.is_some()) {
+            let mut tangents = Tangents::default();
+            mesh.vertices.iter().for_each(|vertex| tangents.add(vertex));
+            mesh.faces.iter().for_each(|face| tangents.join(face.indices()));
+            let view = self.view(&tangents.bytes(), None, Some(VERTICES));
+            others.push(("TANGENT", self.file.accessor(Accessor::of(view, Number::F32, "VEC4", vertices))));
+        }
         let corners = mesh.faces.iter().flat_map(|face| face.indices());
         let faces: Vec<u8> = corners.flat_map(u32::to_le_bytes).collect();
         let of_faces = self.view(&faces, None, Some(INDICES));
         let indices = Accessor::of(of_faces, Number::U32, "SCALAR", 3 * mesh.faces.len() as u64);
         let indices = self.file.accessor(indices);
-        let material = self.file.material(material(class_of_kind(kind)));
         Shape { view, vertices, bounds: bounds_of(&mesh.vertices), others, indices, material }
     }
 
@@ -160,7 +186,7 @@ impl Filled {
         // are the same. So each mesh has an accessor of its own.
         let places = Accessor::of(shape.view, Number::F32, "VEC3", shape.vertices).within(shape.bounds);
         let mut attributes = json!({ "POSITION": self.file.accessor(places) });
-        for (name, accessor) in shape.others {
+        for &(name, accessor) in &shape.others {
             attributes[name] = accessor.into();
         }
         let primitive = json!({ "attributes": attributes, "indices": shape.indices, "material": shape.material });

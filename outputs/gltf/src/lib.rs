@@ -3,7 +3,7 @@
 //! [`write_still`] writes a mesh at one age, [`write_plant_instanced`] the same with its organs as instances,
 //! [`write_growth`] a whole life as morph targets, and [`Sway`] a plant on a skeleton that the wind moves. Metres, Y
 //! up, colours of vertices in linear light. JSON by serde_json; the bytes are ours, since no crate writes accessors as
-//! a stream. Absent: meshopt and Draco, which few programs read, and textures.
+//! a stream. Pictures of a species are in the file of one age. Absent: meshopt and Draco, which few programs read.
 
 mod body;
 mod document;
@@ -15,6 +15,7 @@ mod paint;
 mod rig;
 mod still;
 mod sway;
+mod tangents;
 #[cfg(test)]
 mod tests;
 mod wood;

@@ -1,16 +1,17 @@
 //! A mesh at one age as GLB: a plant or a plot, as PLY has it, with the properties of its vertices.
 //!
-//! Metres, Y up: our (x, y, z) is (x, z, −y) there. Each class of components (wood, leaves, flowers, fruits, obstacles)
-//! is a primitive with its own material. A vertex has position, normal, texture coordinates, colour in linear light,
-//! `_BIRTH_AGE`, `_DEATH_AGE` and `_COMPONENT_ID`, as floats, which hold whole numbers below 2²⁴; what lives has the
-//! largest float as `_DEATH_AGE`, because glTF knows no infinity. Columns of a mesh follow, as `_UNTIL_M`. Texture
-//! coordinates run from the top, as glTF counts them. The mesh is drawn once to be counted and once more a class to be
-//! written, so that none of it is kept but a few bytes for each run of vertices of one class. Positions of a skinned
-//! mesh stand as they do in calm air.
+//! Metres, Y up: our (x, y, z) is (x, z, −y) there. Each material slot, of a class of components (wood, leaves,
+//! flowers, fruits, obstacles) or of an order of it, is a primitive with its own material. A vertex has position,
+//! normal, texture coordinates, colour in linear light, `_BIRTH_AGE`, `_DEATH_AGE` and `_COMPONENT_ID`, as floats,
+//! which hold whole numbers below 2²⁴; what lives has the largest float as `_DEATH_AGE`, because glTF knows no
+//! infinity. Columns of a mesh follow, as `_UNTIL_M`. Texture coordinates run from the top, as glTF counts them. The
+//! mesh is drawn once to be counted and once more a slot to be written, so that none of it is kept but a few bytes for
+//! each run of vertices of one slot. Positions of a skinned mesh stand as they do in calm air.
 
 use super::document::{Accessor, Document, INDICES, MOST_BYTES, Number, VERTICES, pad, too_large};
-use super::paint::{CLASSES, class_of, linear, material};
-use phytomer_meshes::{Columns, Drawing, Vertex};
+use super::paint::{WHITE, enter_material, linear};
+use super::tangents::Tangents;
+use phytomer_meshes::{Columns, Drawing, Slots, Vertex};
 use serde_json::{Map, Value, json};
 use std::io::{self, Write};
 
@@ -38,22 +39,24 @@ pub fn y_up([x, y, z]: [f32; 3]) -> [f32; 3] {
     [x, z, -y]
 }
 
-/// Neighbouring vertices of one class.
+/// Neighbouring vertices of one slot.
 #[derive(Debug, Clone, Copy)]
 struct Run {
-    /// The first vertex in the mesh, and in its class.
+    /// The first vertex in the mesh, and in its slot.
     first: u32,
     own: u32,
-    class: u8,
+    slot: u16,
 }
 
 /// What is counted before a file is written.
 #[derive(Debug, Default)]
 struct Plan {
     runs: Vec<Run>,
-    vertices: [u64; CLASSES.len()],
-    faces: [u64; CLASSES.len()],
-    bounds: [Option<[[f32; 3]; 2]>; CLASSES.len()],
+    /// All vertices, and for each slot its own.
+    all: u64,
+    vertices: Vec<u64>,
+    faces: Vec<u64>,
+    bounds: Vec<Option<[[f32; 3]; 2]>>,
 }
 
 /// Writes a whole GLB file.
@@ -61,13 +64,14 @@ struct Plan {
 /// # Errors
 /// Those of `out`; a mesh that is larger than the format can hold, before anything is written.
 pub fn write_still(mesh: &dyn Drawing, out: &mut (dyn Write + Send)) -> io::Result<()> {
-    Still::of(mesh, None)?.write(Document::default(), &[], out)
+    Still::of(mesh, None)?.write(Document::default(), Vec::new(), out)
 }
 
 /// A mesh that is counted and ready to be written.
 pub struct Still<'a> {
     mesh: &'a dyn Drawing,
     skin: Option<&'a Binding<'a>>,
+    slots: Slots,
     plan: Plan,
 }
 
@@ -82,18 +86,19 @@ impl<'a> Still<'a> {
         if bytes > MOST_BYTES {
             return Err(too_large(bytes));
         }
-        let mut plan = Plan::default();
+        let slots = mesh.slots();
+        let (mut plan, mut in_turn) = (Plan::of(slots.list().len()), slots.in_turn());
         mesh.vertices(&mut |vertices| {
-            vertices.iter().for_each(|vertex| plan.count(vertex));
+            vertices.iter().for_each(|vertex| plan.count(vertex, in_turn.next(vertex)));
             Ok(())
         })?;
-        let (mut faces, mut at) = ([0; CLASSES.len()], 0);
+        let (mut faces, mut at) = (vec![0; slots.list().len()], 0);
         mesh.faces(&mut |drawn| {
-            drawn.iter().for_each(|face| faces[usize::from(plan.run(face.indices()[0], &mut at).class)] += 1);
+            drawn.iter().for_each(|face| faces[usize::from(plan.run(face.indices()[0], &mut at).slot)] += 1);
             Ok(())
         })?;
         plan.faces = faces;
-        Ok(Self { mesh, skin, plan })
+        Ok(Self { mesh, skin, slots, plan })
     }
 
     fn stride(&self) -> u64 {
@@ -110,10 +115,10 @@ impl<'a> Still<'a> {
     /// joints gets the first skin of the file.
     ///
     /// # Errors As [`write_still`].
-    pub fn write(&self, mut file: Document, bytes: &[u8], out: &mut (dyn Write + Send)) -> io::Result<()> {
+    pub fn write(&self, mut file: Document, mut bytes: Vec<u8>, out: &mut (dyn Write + Send)) -> io::Result<()> {
         file.extras.extend(extras_of(self.mesh));
         let name = self.mesh.notes().into_iter().next().unwrap_or_default();
-        let node = if let Some(mesh) = self.enter(&mut file, &name) {
+        let node = if let Some(mesh) = self.enter(&mut file, &name, &mut bytes) {
             let skin = self.skin.map(|_| json!(0));
             let mut node = json!({ "name": name, "mesh": mesh });
             skin.into_iter().for_each(|skin| node["skin"] = skin);
@@ -124,21 +129,53 @@ impl<'a> Still<'a> {
         let node = file.node(node);
         file.roots.push(node);
         file.write_head(out)?;
-        out.write_all(bytes)?;
-        for class in self.classes() {
-            self.write_vertices(class, out)?;
-            self.write_faces(class, out)?;
+        out.write_all(&bytes)?;
+        for slot in self.filled() {
+            self.write_vertices(slot, out)?;
+            if self.has_relief(slot) {
+                out.write_all(&self.tangents(slot)?.bytes())?;
+            }
+            self.write_faces(slot, out)?;
         }
         Ok(())
     }
 
-    fn classes(&self) -> impl Iterator<Item = usize> {
-        (0..CLASSES.len()).filter(|class| self.plan.faces[*class] > 0)
+    /// Whether a picture of relief lies on a slot.
+    fn has_relief(&self, slot: usize) -> bool {
+        self.slots.list()[slot].texture.as_ref().is_some_and(|texture| texture.normals.is_some())
+    }
+
+    fn tangents(&self, slot: usize) -> io::Result<Tangents> {
+        let (mut tangents, mut in_turn, mut at) = (Tangents::default(), self.slots.in_turn(), 0);
+        self.mesh.vertices(&mut |vertices| {
+            let own = vertices.iter().filter(|vertex| in_turn.next(vertex) == slot);
+            own.for_each(|vertex| tangents.add(vertex));
+            Ok(())
+        })?;
+        self.mesh.faces(&mut |faces| {
+            for face in faces {
+                let run = self.plan.run(face.indices()[0], &mut at);
+                if usize::from(run.slot) == slot {
+                    tangents.join(face.indices().map(|corner| self.plan.own(corner, run)));
+                }
+            }
+            Ok(())
+        })?;
+        Ok(tangents)
+    }
+
+    /// The slots that have a triangle.
+    fn filled(&self) -> impl Iterator<Item = usize> {
+        (0..self.plan.faces.len()).filter(|slot| self.plan.faces[*slot] > 0)
     }
 
     /// Enters the mesh; `None` where it has no triangle.
-    fn enter(&self, file: &mut Document, name: &str) -> Option<usize> {
-        let primitives: Vec<Value> = self.classes().map(|class| self.enter_class(file, class)).collect();
+    fn enter(&self, file: &mut Document, name: &str, bytes: &mut Vec<u8>) -> Option<usize> {
+        // The pictures are before the vertices, which are written as they come.
+        let materials: Vec<(usize, usize)> =
+            self.filled().map(|slot| (slot, enter_material(&self.slots.list()[slot], file, bytes))).collect();
+        let enter = |(slot, material): (usize, usize)| self.enter_slot(file, slot, material);
+        let primitives: Vec<Value> = materials.into_iter().map(enter).collect();
         if primitives.is_empty() {
             return None;
         }
@@ -146,11 +183,11 @@ impl<'a> Still<'a> {
         Some(file.meshes.len() - 1)
     }
 
-    fn enter_class(&self, file: &mut Document, class: usize) -> Value {
-        let (vertices, faces, stride) = (self.plan.vertices[class], self.plan.faces[class], self.stride());
+    fn enter_slot(&self, file: &mut Document, slot: usize, material: usize) -> Value {
+        let (vertices, faces, stride) = (self.plan.vertices[slot], self.plan.faces[slot], self.stride());
         let view = file.view(vertices * stride, Some(stride), Some(VERTICES));
         let of = |number, shape, offset| Accessor::of(view, number, shape, vertices).at(offset);
-        let bounds = self.plan.bounds[class].unwrap_or_default();
+        let bounds = self.plan.bounds[slot].unwrap_or_default();
         let mut attributes: Vec<(&str, Accessor)> = vec![
             ("POSITION", of(Number::F32, "VEC3", 0).within(bounds)),
             ("NORMAL", of(Number::F32, "VEC3", 12)),
@@ -168,19 +205,24 @@ impl<'a> Still<'a> {
         let first = stride - 4 * columns.len() as u64;
         let more = (0..).zip(&columns).map(|(k, name)| (name.as_str(), of(Number::F32, "SCALAR", first + 4 * k)));
         attributes.extend(more);
+        if self.has_relief(slot) {
+            let tangents = file.view(16 * vertices, None, Some(VERTICES));
+            attributes.push(("TANGENT", Accessor::of(tangents, Number::F32, "VEC4", vertices)));
+        }
         let entered = attributes.into_iter().map(|(name, accessor)| (name.to_owned(), file.accessor(accessor).into()));
         let attributes: Map<String, Value> = entered.collect();
         let of_faces = file.view(faces * 12, None, Some(INDICES));
         let indices = file.accessor(Accessor::of(of_faces, Number::U32, "SCALAR", 3 * faces));
-        json!({ "attributes": attributes, "indices": indices, "material": file.material(material(class)) })
+        json!({ "attributes": attributes, "indices": indices, "material": material })
     }
 
-    fn write_vertices(&self, class: usize, out: &mut (dyn Write + Send)) -> io::Result<()> {
+    fn write_vertices(&self, slot: usize, out: &mut (dyn Write + Send)) -> io::Result<()> {
         let (mut bytes, mut row, columns) = (Vec::new(), Vec::new(), self.mesh.columns());
+        let (mut in_turn, is_white) = (self.slots.in_turn(), self.slots.list()[slot].texture.is_some());
         self.mesh.vertices(&mut |vertices| {
             bytes.clear();
-            for vertex in vertices.iter().filter(|vertex| class_of(&vertex.tag()) == class) {
-                put(vertex, &mut bytes);
+            for vertex in vertices.iter().filter(|vertex| in_turn.next(vertex) == slot) {
+                put(vertex, is_white, &mut bytes);
                 if let Some((joints, shares)) = self.skin.map(|bind| bind(vertex)) {
                     bytes.extend_from_slice(&joints);
                     bytes.extend_from_slice(&shares);
@@ -191,16 +233,16 @@ impl<'a> Still<'a> {
             }
             out.write_all(&bytes)
         })?;
-        pad(self.plan.vertices[class] * self.stride(), out)
+        pad(self.plan.vertices[slot] * self.stride(), out)
     }
 
-    fn write_faces(&self, class: usize, out: &mut (dyn Write + Send)) -> io::Result<()> {
+    fn write_faces(&self, slot: usize, out: &mut (dyn Write + Send)) -> io::Result<()> {
         let (mut bytes, mut at) = (Vec::new(), 0);
         self.mesh.faces(&mut |faces| {
             bytes.clear();
             for face in faces {
                 let run = self.plan.run(face.indices()[0], &mut at);
-                if usize::from(run.class) == class {
+                if usize::from(run.slot) == slot {
                     let own = face.indices().map(|corner| self.plan.own(corner, run).to_le_bytes());
                     own.iter().for_each(|corner| bytes.extend_from_slice(corner));
                 }
@@ -211,15 +253,19 @@ impl<'a> Still<'a> {
 }
 
 impl Plan {
-    fn count(&mut self, vertex: &Vertex) {
-        let class = class_of(&vertex.tag());
-        let first = self.vertices.iter().sum::<u64>() as u32;
-        if self.runs.last().is_none_or(|run| usize::from(run.class) != class) {
-            self.runs.push(Run { first, own: self.vertices[class] as u32, class: class as u8 });
+    fn of(slots: usize) -> Self {
+        Self { vertices: vec![0; slots], bounds: vec![None; slots], ..Self::default() }
+    }
+
+    fn count(&mut self, vertex: &Vertex, slot: usize) {
+        let first = self.all as u32;
+        if self.runs.last().is_none_or(|run| usize::from(run.slot) != slot) {
+            self.runs.push(Run { first, own: self.vertices[slot] as u32, slot: slot as u16 });
         }
-        self.vertices[class] += 1;
+        self.vertices[slot] += 1;
+        self.all += 1;
         let at = y_up(vertex.position());
-        let [low, high] = self.bounds[class].get_or_insert([at, at]);
+        let [low, high] = self.bounds[slot].get_or_insert([at, at]);
         (0..3).for_each(|k| (low[k], high[k]) = (low[k].min(at[k]), high[k].max(at[k])));
     }
 
@@ -236,10 +282,10 @@ impl Plan {
                 self.runs.partition_point(|run| run.first <= vertex).saturating_sub(1)
             };
         }
-        self.runs.get(*at).copied().unwrap_or(Run { first: 0, own: 0, class: 0 })
+        self.runs.get(*at).copied().unwrap_or(Run { first: 0, own: 0, slot: 0 })
     }
 
-    /// The place of a vertex in its class; `near` is the run of a vertex of the same triangle.
+    /// The place of a vertex in its slot; `near` is the run of a vertex of the same triangle.
     fn own(&self, vertex: u32, near: Run) -> u32 {
         // All corners of a triangle are of one component, whose vertices follow one another.
         near.own + vertex.wrapping_sub(near.first)
@@ -247,19 +293,20 @@ impl Plan {
 }
 
 /// Appends a vertex in the order of the attributes.
-fn put(vertex: &Vertex, bytes: &mut Vec<u8>) {
+fn put(vertex: &Vertex, is_white: bool, bytes: &mut Vec<u8>) {
     let tag = vertex.tag();
-    put_shape(vertex, bytes);
+    put_shape(vertex, is_white, bytes);
     floats(bytes, &[tag.birth, tag.death.min(f32::MAX), tag.component as f32]);
 }
 
-/// Appends place, normal, texture coordinates and colour of a vertex.
-pub fn put_shape(vertex: &Vertex, bytes: &mut Vec<u8>) {
+/// Appends place, normal, texture coordinates and colour of a vertex, which is white where a picture lies on it.
+pub fn put_shape(vertex: &Vertex, is_white: bool, bytes: &mut Vec<u8>) {
     let [s, t] = vertex.texture();
     floats(bytes, &y_up(vertex.position()));
     floats(bytes, &y_up(unit(vertex.normal())));
     floats(bytes, &[s, 1.0 - t]);
-    linear(vertex.tag().colour).iter().for_each(|channel| bytes.extend_from_slice(&channel.to_le_bytes()));
+    let colour = if is_white { WHITE } else { linear(vertex.tag().colour) };
+    colour.iter().for_each(|channel| bytes.extend_from_slice(&channel.to_le_bytes()));
 }
 
 fn floats(bytes: &mut Vec<u8>, of: &[f32]) {

@@ -117,7 +117,7 @@ impl Sway {
         let mut bytes = Vec::new();
         self.enter_skin(&mut file, &mut bytes);
         self.enter_animation(&mut file, &mut bytes);
-        still.write(file, &bytes, out)
+        still.write(file, bytes, out)
     }
 
     fn enter_skin(&self, file: &mut Document, bytes: &mut Vec<u8>) {

@@ -36,7 +36,7 @@ pub use maker::Maker;
 pub use models::{Models, stepped};
 pub use phytomer_looks::{Surface, SurfacePoint};
 pub use phytomer_meshes::Model;
-pub use stand::{Member, Organs, StillOrgans, organs_alone, wood_of, wood_of_plot};
+pub use stand::{Member, Organs, StillOrgans, organs_alone, organs_of_plot, wood_of, wood_of_plot};
 use track::some_between;
 pub use track::{Key, Track, between};
 

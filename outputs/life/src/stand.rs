@@ -91,6 +91,15 @@ pub fn organs_alone(options: &MeshOptions) -> MeshOptions {
     MeshOptions { kinds, ..options.clone() }
 }
 
+/// A plot without its wood and its obstacles.
+pub fn organs_of_plot<'p>(plot: &PlotMesh<'p>) -> PlotMesh<'p> {
+    let mut organs = wood_of_plot(plot);
+    let of = |body: &PlotBody<'p>| PlotBody { plant: body.plant, age: body.age, options: organs_alone(&body.options) };
+    organs.bodies = plot.bodies.iter().map(of).collect();
+    organs.obstacles.clear();
+    organs
+}
+
 /// A plot without its organs.
 pub fn wood_of_plot<'p>(plot: &PlotMesh<'p>) -> PlotMesh<'p> {
     let wood = |of: &PlotBody<'p>| PlotBody { plant: of.plant, age: of.age, options: wood_of(&of.options) };

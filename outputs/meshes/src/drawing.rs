@@ -5,7 +5,7 @@
 //! the chunks of a scene on to the disk without a copy.
 
 use super::chunk::{Chunk, Face, Vertex};
-use super::{About, Columns, Counts, Scene, Tolerance};
+use super::{About, Columns, Counts, Scene, Slots, Tolerance};
 use std::io;
 
 /// A function that takes some entries of a mesh, in their order.
@@ -28,6 +28,11 @@ pub trait Drawing {
     /// What its vertices tell beside the properties of every mesh.
     fn columns(&self) -> Option<&Columns<'_>> {
         None
+    }
+
+    /// The materials that its vertices have.
+    fn slots(&self) -> Slots {
+        Slots::default()
     }
 
     /// Draws all vertices.
@@ -71,6 +76,10 @@ impl Drawing for PlantDrawing<'_> {
 
     fn columns(&self) -> Option<&Columns<'_>> {
         self.scene.columns()
+    }
+
+    fn slots(&self) -> Slots {
+        Slots::of([(self.scene.plant(), self.scene.options(), self.counts().vertices)])
     }
 
     fn vertices(&self, take: &mut Take<'_, Vertex>) -> io::Result<()> {

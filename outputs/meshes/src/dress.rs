@@ -9,23 +9,47 @@ use phytomer_sim::clock::Tick;
 use phytomer_sim::plant::{Class, NodeId, OrganId, Plant};
 
 /// Bark of the same density on all stems.
+///
+/// Around an axis the texture stands a whole number of times, the nearest to its circumference and at least once, so
+/// that no seam is seen. Along it the texture covers its own length; on an axis that is thinner than the texture is
+/// wide it covers as much less as it does around it, so that its picture is not drawn out. The circumference is the
+/// mean of the axis, each part by its surface. Where the axis has it, a picture is from 3/4 to 3/2 as wide as it should
+/// be for its length.
 #[derive(Debug, Clone)]
 pub struct Bark {
-    /// The length that the texture covers, metres.
-    metres: f32,
     /// For each internode, how far its base is from the base of its axis, metres.
     along: Vec<f32>,
-    /// For each axis, how often the texture goes around it.
-    around: Vec<f32>,
+    /// For each axis, how often the texture goes around it, and the length that it covers along it, metres; `None`
+    /// where the axis has no such bark.
+    covers: Vec<Option<[f32; 2]>>,
+    /// For each order the width and the length of its texture, metres.
+    sizes: Vec<Option<[f32; 2]>>,
 }
 
+/// How often a texture of a width and a length goes around a stem of a mean circumference, and the length that it
+/// covers along it, metres.
+pub fn covered([wide, long]: [f32; 2], around: f64) -> [f32; 2] {
+    let times = around / f64::from(wide);
+    if times >= 1.0 {
+        return [times.round() as f32, long];
+    }
+    // Of a stem without a width any length will do.
+    let shrunk = times.max(LEAST_SHARE);
+    [1.0, (f64::from(long) * shrunk) as f32]
+}
+
+/// The least share of its length to which a texture shrinks on thin stems.
+const LEAST_SHARE: f64 = 1e-3;
+
 impl Bark {
-    /// The bark of `plant` at `age`, of which `metres` have one texture.
-    ///
-    /// Around an axis the texture stands a whole number of times, the nearest to its circumference, so that no seam is
-    /// seen; on an axis that is thinner than the texture it is a part of it, with a seam. The circumference is the mean
-    /// of the axis, each part by its surface.
-    pub fn of(plant: &Plant, age: Tick, metres: f32) -> Self {
+    /// The bark of `plant` at `age`; `size` tells how many metres of bark of an order one texture is wide and long.
+    /// `None` where no order has any.
+    pub fn of(plant: &Plant, age: Tick, size: impl Fn(u8) -> Option<[f32; 2]>) -> Option<Self> {
+        let last = plant.axes.order.iter().copied().max().unwrap_or(0);
+        let sizes: Vec<Option<[f32; 2]>> = (0..=last).map(|order| size(order.max(1))).collect();
+        if sizes.iter().all(Option::is_none) {
+            return None;
+        }
         let mut along = vec![0.0; plant.nodes.len()];
         let mut axes = vec![[0.0_f64; 3]; plant.axes.len()];
         for node in (0..plant.nodes.len()).filter(|node| plant.stands(NodeId(*node as u32), age)) {
@@ -37,17 +61,17 @@ impl Bark {
             *surface += diameter * length;
             *squares += diameter * diameter * length;
         }
-        let around = axes.iter().map(|[_, surface, squares]| {
+        let covers = axes.iter().zip(&plant.axes.order).map(|([_, surface, squares], order)| {
             let mean = if *surface > 0.0 { std::f64::consts::PI * squares / surface } else { 0.0 };
-            let times = mean / f64::from(metres);
-            (if times < 1.0 { times } else { times.round() }) as f32
+            sizes[usize::from(*order)].map(|size| covered(size, mean))
         });
-        Self { metres, around: around.collect(), along }
+        Some(Self { covers: covers.collect(), along, sizes })
     }
 
-    /// The length that the texture covers, metres.
-    pub fn metres(&self) -> f32 {
-        self.metres
+    /// How many metres of bark the texture of an internode is wide and long.
+    pub fn size(&self, plant: &Plant, node: NodeId) -> Option<[f32; 2]> {
+        let order = plant.axes.order[plant.nodes.axis[node.index()].index()];
+        self.sizes.get(usize::from(order)).copied().flatten()
     }
 
     /// Writes the texture coordinates of the sides of an internode, which have 0 at its base and 1 at its tip.
@@ -63,8 +87,8 @@ impl Bark {
     }
 
     fn put(&self, plant: &Plant, node: NodeId, above: f32, vertex: &mut Vertex) {
-        let around = self.around[plant.nodes.axis[node.index()].index()];
-        vertex.set_texture([vertex.texture()[0] * around, (self.along[node.index()] + above) / self.metres]);
+        let Some([around, long]) = self.covers[plant.nodes.axis[node.index()].index()] else { return };
+        vertex.set_texture([vertex.texture()[0] * around, (self.along[node.index()] + above) / long]);
     }
 }
 

@@ -25,15 +25,18 @@ mod lamina;
 mod measure;
 mod model;
 mod near;
+mod obj;
 mod outline;
 mod palette;
 mod patched;
+mod pictures;
 mod plot;
 mod ply;
 pub mod range;
 mod reduced;
 mod scene;
 mod section;
+mod slots;
 mod solid;
 mod stem;
 mod stl;
@@ -43,6 +46,7 @@ mod tests;
 mod tests_range;
 #[cfg(test)]
 mod tests_stated;
+mod texture;
 mod tube;
 mod welded;
 mod wood;
@@ -60,17 +64,21 @@ pub use file::{MeshError, MeshFile, write_mesh};
 pub use forms::own::{MeshFault, OwnForms, check as check_form};
 pub use forms::{Depth, FormMesh, Point as FormPoint};
 pub use model::Model;
+pub use obj::Obj;
 pub use outline::OwnForm;
 pub use patched::Patched;
+pub use pictures::Pictures;
 pub use plot::{PlotBody, PlotDrawing, PlotMember, PlotMesh};
 pub use ply::Ply;
 pub use reduced::chain::{Found, Sample, chains};
 pub use reduced::simplify::{fits, simplify};
 pub use reduced::{corners_of_area, meeting, sides as sides_within};
 pub use scene::{DrawnOrgan, Scene};
+pub use slots::{CLASSES, InTurn, Slot, Slots, Slotting, class_of, class_of_kind};
 pub use solid::{Solid, Undrawn};
 pub use stem::Stems;
 pub use stl::write_stl;
+pub use texture::{MOST_PICTURE_BYTES, MOST_PIXELS, Picture, PictureFault, Texture, Textures};
 pub use tube::Frustum;
 
 use phytomer_looks::place_of_own;
@@ -182,6 +190,8 @@ pub struct MeshOptions {
     pub attributes: bool,
     /// How finely organs are drawn, from 0, a few polygons, to [`phytomer_looks::MOST_DETAIL`].
     pub detail: u8,
+    /// How many materials a mesh has.
+    pub slotting: Slotting,
 }
 
 impl MeshOptions {
@@ -224,6 +234,7 @@ impl Default for MeshOptions {
             swings: None,
             attributes: false,
             detail: 0,
+            slotting: Slotting::Kind,
         }
     }
 }

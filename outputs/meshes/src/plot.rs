@@ -8,7 +8,7 @@
 use super::chunk::{Chunk, Face, Vertex};
 use super::drawing::{Drawing, Take};
 use super::ply::{header_of, place_comment};
-use super::{Counts, Mesh, MeshOptions, Scene, Tolerance, mesh_plant};
+use super::{Counts, Mesh, MeshOptions, Scene, Slots, Tolerance, mesh_plant};
 use phytomer_sim::Tick;
 use phytomer_sim::plant::Plant;
 use std::io::{self, Write};
@@ -162,6 +162,13 @@ impl Drawing for PlotDrawing<'_> {
 
     fn place(&self) -> [f64; 3] {
         self.mesh.place
+    }
+
+    fn slots(&self) -> Slots {
+        Slots::of(self.members().filter_map(|(member, ready)| {
+            let body = self.mesh.bodies.get(member.body)?;
+            Some((body.plant, &body.options, ready.counts.vertices))
+        }))
     }
 
     fn vertices(&self, take: &mut Take<'_, Vertex>) -> io::Result<()> {

@@ -13,7 +13,7 @@ use super::forms::{FormMesh, Placement};
 use super::lamina::{Lamina, Piece};
 use super::section::{Prism, Ring};
 use super::tube::{Frustum, Strip, Tube};
-use phytomer_looks::Paints;
+use phytomer_looks::{Flare, Paints};
 use phytomer_sim::clock::Tick;
 use phytomer_sim::plant::{AxisId, InternodeLook, Kind, NodeId, Plant, Shape as Stem};
 use std::ops::Range;
@@ -37,6 +37,8 @@ pub struct Stems<'a> {
     line: Drawn,
     /// Bark of the same density on all stems, where it is asked for.
     pub(super) bark: Option<Bark>,
+    /// How the foot of the trunk widens.
+    pub(super) flare: Option<Flare>,
     /// The options, for the colours that are stated for components; `None` where none are.
     coloured: Option<MeshOptions>,
 }
@@ -117,9 +119,11 @@ impl<'a> Stems<'a> {
         let laminae = forms.iter().any(|form| matches!(form, Drawn::Lamina(_)));
         let next = if sections.is_empty() && !laminae { Vec::new() } else { next_on_axis(plant) };
         let (detail, line) = (Detail::of(plant, age, options), Drawn::Tube(Tube::new(OF_A_LINE), true));
-        let bark = options.bark_m.map(|metres| Bark::of(plant, age, metres));
+        let stated = |order| options.bark_m.map(|metres| [metres; 2]).or_else(|| options.own.textures().bark(order));
+        let bark = Bark::of(plant, age, stated);
+        let flare = options.own.flare().copied();
         let coloured = options.colours.is_some().then(|| options.clone());
-        Self { plant, age, kinds: options.kinds, paints, forms, sections, next, detail, line, bark, coloured }
+        Self { plant, age, kinds: options.kinds, paints, forms, sections, next, detail, line, bark, flare, coloured }
     }
 
     /// The internodes of a range of nodes that are drawn.

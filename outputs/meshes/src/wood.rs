@@ -7,7 +7,7 @@ use super::chunk::{Chunk, Counts, Face, Sink, Vertex};
 use super::reduced::Reduced;
 use super::stem::Stems;
 use super::welded::Welded;
-use super::{Joints, MeshOptions};
+use super::{Joints, MeshOptions, Tolerance};
 use bytemuck::Pod;
 use phytomer_sim::plant::NodeId;
 use std::io;
@@ -21,7 +21,7 @@ pub enum Wood {
     Within(Reduced),
     /// One closed surface.
     Welded(Welded),
-    /// Each internode by itself or tubes along several, with collars.
+    /// Each internode by itself or tubes along several, with collars, with a flare, or with both.
     Collared(Box<Self>, Welded),
 }
 
@@ -30,13 +30,24 @@ impl Wood {
     pub fn of(stems: &Stems, options: &MeshOptions) -> Self {
         match (options.joints, &options.tolerance) {
             (Joints::Welded, tolerance) => Self::Welded(Welded::of(stems, tolerance.as_ref())),
-            (Joints::Collar, _) => {
-                let open = MeshOptions { joints: Joints::Open, ..options.clone() };
-                Self::Collared(Box::new(Self::of(stems, &open)), Welded::collars(stems))
+            (Joints::Collar, tolerance) => {
+                let (collars, open) = (Welded::collars(stems), Self::open(stems, tolerance.as_ref()));
+                let beside = Welded::flare(stems).unwrap_or_default();
+                Self::Collared(Box::new(open), collars.with(beside))
             }
-            (Joints::Open, Some(tolerance)) => Self::Within(Reduced::of(stems, tolerance)),
-            (Joints::Open, None) => Self::Each,
+            (Joints::Open, tolerance) => {
+                let open = Self::open(stems, tolerance.as_ref());
+                match Welded::flare(stems) {
+                    Some(flare) => Self::Collared(Box::new(open), flare),
+                    None => open,
+                }
+            }
         }
+    }
+
+    /// Tubes by themselves.
+    fn open(stems: &Stems, tolerance: Option<&Tolerance>) -> Self {
+        tolerance.map_or(Self::Each, |tolerance| Self::Within(Reduced::of(stems, tolerance)))
     }
 
     /// The tubes along several internodes, where there are such.
@@ -48,7 +59,7 @@ impl Wood {
         }
     }
 
-    /// The welded surface or the collars, where there are such.
+    /// The welded surface, or the collars and the flare, where there are such.
     pub fn welded(&self) -> Option<&Welded> {
         match self {
             Self::Welded(welded) | Self::Collared(_, welded) => Some(welded),

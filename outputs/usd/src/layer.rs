@@ -31,6 +31,10 @@ pub enum Data<'a> {
     Float(f32),
     /// Three numbers.
     Triple([f32; 3]),
+    /// Four numbers.
+    Quad([f32; 4]),
+    /// Another file, by its path.
+    File(&'a str),
     /// Whole numbers.
     Ints(&'a [i32]),
     /// Whole numbers of 64 bits.

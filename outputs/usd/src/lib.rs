@@ -32,9 +32,11 @@ use binary::Binary;
 use course::Course;
 use layer::{Header, Layer};
 use package::Package;
+use paint::Material;
 use parts::Parts;
 use phytomer_life::{Life, Models, StillOrgans, between};
-use phytomer_meshes::{Columns, Drawing, MeshOptions};
+use phytomer_meshes::{Columns, Drawing, MeshOptions, Pictures, Slot, Slots, Texture};
+use phytomer_sim::plant::Kind;
 use skeleton::Skeleton;
 use std::io;
 use text::Text;
@@ -60,6 +62,8 @@ pub struct Asked {
     pub organs: Organs,
     /// What the file says of itself, in words.
     pub words: String,
+    /// The pictures of its materials, with the names that they have beside the file, or in a package.
+    pub pictures: Pictures,
 }
 
 /// The plants of a file.
@@ -97,10 +101,12 @@ fn write_still(
     let course = Course::still();
     let skeletons = skeletons(plants, &course);
     in_layer(asked, None, out, &mut |layer| {
+        let slots = wood.slots();
+        let mut slotted = Vec::new();
         if wood.counts().faces > 0 {
-            still::write_mesh(layer, (ROOT, "wood", "wood"), wood)?;
+            slotted = still::write_mesh(layer, (ROOT, "wood", "wood"), wood, &slots)?;
         }
-        write_organs(layer, asked.organs, (plants, &skeletons), &course, false)
+        write_organs(layer, (asked, &slotted), (plants, &skeletons), &course, false)
     })
 }
 
@@ -125,9 +131,9 @@ pub fn write_life(
             changing::write(layer, (ROOT, "wood", "wood"), &tubes, &course)?;
         }
         if let Some(obstacles) = plants.obstacles {
-            still::write_mesh(layer, (ROOT, "obstacles", "wood"), obstacles)?;
+            still::write_mesh(layer, (ROOT, "obstacles", "wood"), obstacles, &Slots::default())?;
         }
-        write_organs(layer, asked.organs, (plants, &skeletons), &course, true)
+        write_organs(layer, (asked, &[]), (plants, &skeletons), &course, true)
     })
 }
 
@@ -160,7 +166,7 @@ fn in_layer(
         Encoding::Package => {
             let mut package = Package::begin(out, "plant.usdc")?;
             in_root(&mut Binary::begin(&mut package, &header)?, write)?;
-            package.finish()
+            package.finish(asked.pictures.files())
         }
     }
 }
@@ -172,10 +178,11 @@ fn in_root(layer: &mut dyn Layer, write: &mut dyn FnMut(&mut dyn Layer) -> io::R
     layer.finish()
 }
 
-/// Writes organs and internodes that are drawn by themselves, and the materials.
+/// Writes organs and internodes that are drawn by themselves, and the materials; `slotted` are the slots of the wood
+/// where it has other materials than one.
 fn write_organs(
     layer: &mut dyn Layer,
-    organs: Organs,
+    (asked, slotted): (&Asked, &[Slot]),
     (plants, skeletons): (&Plants, &[Skeleton]),
     course: &Course,
     internodes: bool,
@@ -188,20 +195,33 @@ fn write_organs(
         changing::write(layer, (ROOT, "stems", "wood"), &stems, course)?;
     }
     let parts = parts(false);
-    let mut materials = vec![("wood", 0.85)];
+    let mut materials = vec![Material::plain("wood", 0.85)];
+    if !slotted.is_empty() {
+        materials = slotted.iter().map(Material::of).collect();
+    }
     if !parts.is_empty() {
-        match organs {
+        match asked.organs {
             Organs::Instances => {
                 parts.write_instances(layer, ROOT, course)?;
-                materials.extend(models::kinds(&models).into_iter().map(|kind| (kind.tag(), 0.6)));
+                materials.extend(models::kinds(&models).into_iter().map(|kind| {
+                    let texture = texture_of(plants, kind).filter(|_| !internodes).map(|texture| (texture, false));
+                    Material { name: kind.tag(), roughness: 0.6, texture }
+                }));
             }
             Organs::Merged => {
                 changing::write(layer, (ROOT, "organs", "organs"), &parts, course)?;
-                materials.push(("organs", 0.6));
+                materials.push(Material::plain("organs", 0.6));
             }
         }
     }
-    paint::write_materials(layer, ROOT, &materials)
+    paint::write_materials(layer, ROOT, &asked.pictures, &materials)
+}
+
+/// What covers the organs of a kind, which is the same for all plants where they are instances.
+fn texture_of<'p>(plants: &Plants<'p>, kind: Kind) -> Option<&'p Texture> {
+    let textures = plants.options.first()?.own.textures();
+    let texture: &Texture = &textures.list[textures.find(kind.class(), 1)?];
+    Some(texture)
 }
 
 /// The models of all parts in all their colours.

@@ -3,10 +3,11 @@
 use super::changing::{LIVES, begin_mesh, extent};
 use super::layer::{Attribute, Data, Layer, Value};
 use super::models::rgb;
-use super::paint::{self, Palette};
+use super::paint::{self, Material, Palette};
 use super::{Asked, Organs, Patched, ROOT, in_layer, write_still};
-use phytomer_life::{StillOrgans, organs_alone, wood_of, wood_of_plot};
-use phytomer_meshes::{About, Drawing, MeshOptions, PlantDrawing, PlotMesh, Scene, Vertex};
+use phytomer_life::{StillOrgans, organs_alone, organs_of_plot, wood_of, wood_of_plot};
+use phytomer_meshes::{Drawing, MeshOptions, PlantDrawing, PlotMesh, Scene, Slot, Slots, Slotting, Vertex};
+use phytomer_sim::plant::Class;
 use std::io;
 
 /// Writes a plant at an age.
@@ -14,13 +15,18 @@ use std::io;
 /// # Errors
 /// Those of `out`.
 pub fn write_plant(asked: &Asked, scene: &Scene, run_seed: u64, out: &mut dyn Patched) -> io::Result<()> {
-    let wood = Scene::new(scene.plant(), scene.age(), &wood_of(scene.options()));
-    if is_apart(scene.options()) || scene.columns().is_some() && asked.organs == Organs::Merged {
-        let organs = Scene::new(scene.plant(), scene.age(), &organs_alone(scene.options()));
-        return write_drawn(asked, (&wood, &organs), scene.about(run_seed), out);
-    }
     let about = scene.about(run_seed);
-    write_still(asked, &PlantDrawing { scene: &wood, about }, (&StillOrgans::of_plant(scene), scene.columns()), out)
+    let wood = Scene::new(scene.plant(), scene.age(), &wood_of(scene.options()));
+    let wood = PlantDrawing { scene: &wood, about };
+    let merged = asked.organs == Organs::Merged;
+    if is_apart(scene.options())
+        || scene.columns().is_some() && merged
+        || are_slotted([scene.options()].into_iter(), merged)
+    {
+        let organs = Scene::new(scene.plant(), scene.age(), &organs_alone(scene.options()));
+        return write_drawn(asked, [&wood, &PlantDrawing { scene: &organs, about }], out);
+    }
+    write_still(asked, &wood, (&StillOrgans::of_plant(scene), scene.columns()), out)
 }
 
 /// Writes the plants of a plot, each in its place, with its obstacles.
@@ -28,7 +34,26 @@ pub fn write_plant(asked: &Asked, scene: &Scene, run_seed: u64, out: &mut dyn Pa
 /// # Errors
 /// Those of `out`; more vertices than a mesh can have.
 pub fn write_plot(asked: &Asked, plot: &PlotMesh, out: &mut dyn Patched) -> io::Result<()> {
-    write_still(asked, &wood_of_plot(plot).drawing()?, (&StillOrgans::of_plot(plot), None), out)
+    let wood = wood_of_plot(plot);
+    if are_slotted(plot.bodies.iter().map(|body| &body.options), asked.organs == Organs::Merged) {
+        let organs = organs_of_plot(plot);
+        return write_drawn(asked, [&wood.drawing()?, &organs.drawing()?], out);
+    }
+    write_still(asked, &wood.drawing()?, (&StillOrgans::of_plot(plot), None), out)
+}
+
+/// Whether organs have materials that instances of their forms do not tell apart: by order, or by species. Where they
+/// are merged, any texture.
+fn are_slotted<'o>(options: impl Iterator<Item = &'o MeshOptions> + Clone, merged: bool) -> bool {
+    let of_organs = |options: &'o MeshOptions| {
+        let list = &options.own.textures().list;
+        list.iter().filter(|texture| texture.of != Class::Internode).collect::<Vec<_>>()
+    };
+    let by_order = options.clone().any(|options| options.slotting == Slotting::Order);
+    let mut lists: Vec<_> = options.map(of_organs).collect();
+    let of_order = lists.iter().flatten().any(|texture| texture.order.is_some());
+    lists.dedup();
+    by_order || of_order || lists.len() > 1 || merged && lists.iter().any(|list| !list.is_empty())
 }
 
 /// Whether organs are drawn as no instance shows them: a part of them, as points, with normals or columns of their own.
@@ -37,19 +62,31 @@ fn is_apart(options: &MeshOptions) -> bool {
     options.seen.levels.is_some() || far || options.crown_normals || options.swings.is_some() || options.attributes
 }
 
-/// Writes the wood and the organs of a plant as two meshes, with all that their vertices tell.
-fn write_drawn(asked: &Asked, (wood, organs): (&Scene, &Scene), about: About, out: &mut dyn Patched) -> io::Result<()> {
+/// Writes wood and organs as two meshes, with all that their vertices tell.
+fn write_drawn(asked: &Asked, [wood, organs]: [&dyn Drawing; 2], out: &mut dyn Patched) -> io::Result<()> {
+    let both = [("wood", wood, wood.slots()), ("organs", organs, organs.slots())];
     in_layer(asked, None, out, &mut |layer| {
-        for (name, scene) in [("wood", wood), ("organs", organs)] {
-            if scene.counts().faces > 0 {
-                write_mesh(layer, (ROOT, name, name), &PlantDrawing { scene, about })?;
+        let mut materials = Vec::new();
+        for (name, drawing, slots) in &both {
+            if drawing.counts().faces > 0 {
+                materials.extend(write_mesh(layer, (ROOT, *name, *name), *drawing, slots)?);
             }
         }
-        paint::write_materials(layer, ROOT, &[("wood", 0.85), ("organs", 0.6)])
+        let mut written: Vec<Material> = Vec::new();
+        for slot in &materials {
+            if !written.iter().any(|known| known.name == slot.name) {
+                written.push(Material::of(slot));
+            }
+        }
+        if both.iter().all(|(.., slots)| slots.is_plain()) {
+            written = vec![Material::plain("wood", 0.85), Material::plain("organs", 0.6)];
+        }
+        paint::write_materials(layer, ROOT, &asked.pictures, &written)
     })
 }
 
-/// Writes the mesh of a drawing. Each property is drawn anew, so that memory holds one of them at a time.
+/// Writes the mesh of a drawing. Each property is drawn anew, so that memory holds one of them at a time. Where slots
+/// are plain it has the material of this name. Returns the other slots that it has.
 ///
 /// # Errors
 /// Those of the file.
@@ -57,7 +94,8 @@ pub fn write_mesh(
     layer: &mut dyn Layer,
     (root, name, material): (&str, &str, &str),
     wood: &dyn Drawing,
-) -> io::Result<()> {
+    slots: &Slots,
+) -> io::Result<Vec<Slot>> {
     begin_mesh(layer, name)?;
     let counts = wood.counts();
     let mut corners: Vec<i32> = Vec::with_capacity(3 * counts.faces as usize);
@@ -80,8 +118,48 @@ pub fn write_mesh(
     always(layer, st, Data::Pairs(&each(wood, Vertex::texture)?))?;
     write_tags(layer, wood)?;
     write_columns(layer, wood)?;
-    layer.relationship("material:binding", &[paint::path_of(root, material)])?;
-    layer.end()
+    let found = if slots.is_plain() {
+        layer.relationship("material:binding", &[paint::path_of(root, material)])?;
+        Vec::new()
+    } else {
+        bind_slots(layer, root, wood, slots)?
+    };
+    layer.end()?;
+    Ok(found)
+}
+
+/// Binds the faces of each slot of the open mesh to its material; the slots that have faces.
+fn bind_slots(layer: &mut dyn Layer, root: &str, wood: &dyn Drawing, slots: &Slots) -> io::Result<Vec<Slot>> {
+    let (mut in_turn, mut of_vertices) = (slots.in_turn(), Vec::with_capacity(wood.counts().vertices as usize));
+    wood.vertices(&mut |vertices| {
+        of_vertices.extend(vertices.iter().map(|vertex| in_turn.next(vertex) as u16));
+        Ok(())
+    })?;
+    let (mut faces, mut number) = (vec![Vec::new(); slots.list().len()], 0);
+    wood.faces(&mut |drawn| {
+        for face in drawn {
+            faces[usize::from(of_vertices[face.indices()[0] as usize])].push(number);
+            number += 1;
+        }
+        Ok(())
+    })?;
+    let filled: Vec<usize> = (0..faces.len()).filter(|slot| !faces[*slot].is_empty()).collect();
+    let path = |slot: usize| paint::path_of(root, &slots.list()[slot].name);
+    if let [only] = filled[..] {
+        layer.relationship("material:binding", &[path(only)])?;
+    } else {
+        let family = Attribute::uniform("subsetFamily:materialBind:familyType", "token");
+        always(layer, family, Data::Token("partition"))?;
+        for slot in &filled {
+            layer.begin("GeomSubset", &slots.list()[*slot].name, &["MaterialBindingAPI"])?;
+            always(layer, Attribute::uniform("elementType", "token"), Data::Token("face"))?;
+            always(layer, Attribute::uniform("familyName", "token"), Data::Token("materialBind"))?;
+            always(layer, Attribute::new("indices", "int[]"), Data::Ints(&faces[*slot]))?;
+            layer.relationship("material:binding", &[path(*slot)])?;
+            layer.end()?;
+        }
+    }
+    Ok(filled.into_iter().map(|slot| slots.list()[slot].clone()).collect())
 }
 
 /// Writes the columns of a mesh, one at a time.

@@ -23,7 +23,7 @@ pub fn life(plant: &Plant, ages: impl IntoIterator<Item = Tick>) -> Life {
 
 fn written(encoding: Encoding, organs: Organs) -> Vec<u8> {
     let plant = plant();
-    let asked = Asked { encoding, organs, words: "a \"plant\"".to_owned() };
+    let asked = Asked { encoding, organs, words: "a \"plant\"".to_owned(), pictures: Default::default() };
     let mut out = Vec::new();
     let lives = [life(&plant, 0..=6)];
     let (options, members) = ([MeshOptions::default()], [Member::default()]);

@@ -195,6 +195,8 @@ fn put(out: &mut impl Write, data: Data) -> io::Result<()> {
         Data::Flag(yes) => out.write_all(if yes { b"1" } else { b"0" }),
         Data::Float(number) => write!(out, "{number}"),
         Data::Triple(numbers) => write!(out, "{}", Tuple(numbers)),
+        Data::Quad(numbers) => write!(out, "{}", Tuple(numbers)),
+        Data::File(path) => write!(out, "@{path}@"),
         Data::Ints(numbers) => list(out, numbers.iter()),
         Data::Longs(numbers) => list(out, numbers.iter()),
         Data::Floats(numbers) => list(out, numbers.iter()),

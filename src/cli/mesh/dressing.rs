@@ -12,7 +12,7 @@ use clap::builder::PossibleValuesParser;
 use clap::{Args, ValueEnum};
 use phytomer::run::picturing::Pictured;
 use phytomer_outputs::colouring::colour_columns;
-use phytomer_outputs::meshes::MeshOptions;
+use phytomer_outputs::meshes::{MeshOptions, Slotting};
 use phytomer_sim::plant::Plant;
 use std::sync::Arc;
 
@@ -37,6 +37,10 @@ pub struct Dressing {
     /// How finely leaves, flowers and fruits are drawn: 0, a few polygons, to 3, for close-ups.
     #[arg(long, value_name = "0…3", default_value_t = 0, value_parser = clap::value_parser!(u8).range(0..=3))]
     detail: u8,
+    /// Which materials a GLB, USD or OBJ file has: one for each kind of component (wood, leaves, flowers, fruits), or
+    /// one for each kind and order of axes, such as `wood_1`, the trunk.
+    #[arg(long, value_name = "BY", value_enum, default_value_t = Materials::Kind)]
+    materials: Materials,
     /// Colour the vertices of a PLY file by a column of `records`, by `species`, or of a --plot by the `light` of
     /// leaves and buds; amounts go from violet over green to yellow.
     #[arg(long, value_name = "COLUMN", hide_possible_values = true)]
@@ -54,6 +58,16 @@ enum LeafNormals {
     Crown,
 }
 
+/// Which materials a file has.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
+enum Materials {
+    /// One for each kind of component.
+    #[default]
+    Kind,
+    /// One for each kind and order of axes.
+    Order,
+}
+
 impl Dressing {
     /// Refuses what a format, a plot or a species cannot have.
     ///
@@ -67,6 +81,7 @@ impl Dressing {
             ("--wind-data", self.wind_data),
             ("--attributes", self.attributes),
         ];
+        self.check_materials(format, life)?;
         if self.colour_by.is_some() && (format != Format::Ply || life) {
             return Err(Misuse("--colour-by: this is for a PLY file (.ply) of one age".to_owned()));
         }
@@ -92,6 +107,21 @@ impl Dressing {
             Some((_, cohort)) => Err(no_levels("--wind-data", regrown.species()[cohort.species])),
             None => Ok(()),
         }
+    }
+
+    fn check_materials(&self, format: Format, life: bool) -> Result<(), Misuse> {
+        if self.materials == Materials::Kind {
+            return Ok(());
+        }
+        if !format.holds_materials() {
+            return Err(Misuse(
+                "--materials order: PLY and STL hold no materials; GLB, USD and OBJ hold them".to_owned(),
+            ));
+        }
+        if life {
+            return Err(Misuse("--materials order: this is for a plant at one age; leave out --ages".to_owned()));
+        }
+        Ok(())
     }
 
     /// The colours of each plant that is shown, by the column that is asked for, and what they mean in words; none
@@ -130,6 +160,10 @@ impl Dressing {
         options.attributes = self.attributes;
         options.crown_normals = self.leaf_normals == LeafNormals::Crown;
         options.detail = self.detail;
+        options.slotting = match self.materials {
+            Materials::Kind => Slotting::Kind,
+            Materials::Order => Slotting::Order,
+        };
     }
 }
 

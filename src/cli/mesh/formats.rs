@@ -6,9 +6,10 @@
 use super::super::{Misuse, out};
 use phytomer_outputs::Destination;
 use phytomer_outputs::gltf::{write_plant_instanced, write_plot_instanced, write_still};
-use phytomer_outputs::meshes::{MeshWriter, PlantDrawing, PlotMesh, Ply, Scene, write_stl};
+use phytomer_outputs::meshes::{Drawing, MeshWriter, Obj, Pictures, PlantDrawing, PlotMesh, Ply, Scene, write_stl};
 use phytomer_outputs::usd::{self, Asked, Encoding, Organs};
-use std::io;
+use std::ffi::OsStr;
+use std::io::{self, Write};
 use std::path::Path;
 
 /// A format of meshes.
@@ -18,16 +19,18 @@ pub enum Format {
     Glb(Organs),
     Stl,
     Usd(Encoding, Organs),
+    Obj,
 }
 
 /// The formats, with their names and endings. A name without an ending, and stdout, get the first.
-const FORMATS: [(Format, out::Format); 6] = [
+const FORMATS: [(Format, out::Format); 7] = [
     (Format::Ply, out::Format { name: "PLY", extension: "ply" }),
     (Format::Glb(Organs::Merged), out::Format { name: "GLB", extension: "glb" }),
     (Format::Stl, out::Format { name: "STL", extension: "stl" }),
     (Format::Usd(Encoding::Binary, Organs::Instances), out::Format { name: "USD", extension: "usdc" }),
     (Format::Usd(Encoding::Text, Organs::Instances), out::Format { name: "USD", extension: "usda" }),
     (Format::Usd(Encoding::Package, Organs::Instances), out::Format { name: "USD", extension: "usdz" }),
+    (Format::Obj, out::Format { name: "OBJ", extension: "obj" }),
 ];
 
 impl Format {
@@ -48,7 +51,7 @@ impl Format {
         match self {
             Self::Glb(_) => ["ages", "rig"].contains(&option),
             Self::Usd(..) => option == "ages",
-            Self::Ply | Self::Stl => false,
+            Self::Ply | Self::Stl | Self::Obj => false,
         }
     }
 
@@ -63,21 +66,30 @@ impl Format {
         ))
     }
 
-    /// Writes a plant at an age.
+    /// Whether a file of it holds materials.
+    pub fn holds_materials(self) -> bool {
+        matches!(self, Self::Glb(_) | Self::Usd(..) | Self::Obj)
+    }
+
+    /// Writes a plant at an age; what stands beside the file has names that begin with that of `path`.
     ///
     /// # Errors
-    /// Those of `out`; a mesh that is larger than the format can hold.
-    pub fn write_plant(self, scene: &Scene, run_seed: u64, out: &mut Destination) -> io::Result<()> {
+    /// Those of the files; a mesh that is larger than the format can hold.
+    pub fn write_plant(self, scene: &Scene, run_seed: u64, out: &mut Destination, path: &Path) -> io::Result<()> {
         let about = scene.about(run_seed);
+        let drawing = PlantDrawing { scene, about };
         match self {
             Self::Ply => Ply.write(scene, &about, out),
-            Self::Glb(Organs::Merged) => write_still(&PlantDrawing { scene, about }, out),
+            Self::Glb(Organs::Merged) => write_still(&drawing, out),
             Self::Glb(Organs::Instances) => write_plant_instanced(scene, run_seed, out),
-            Self::Stl => write_stl(&PlantDrawing { scene, about }, out),
+            Self::Stl => write_stl(&drawing, out),
             Self::Usd(encoding, organs) => {
-                let asked = Asked { encoding, organs, words: about.in_words() };
-                usd::write_plant(&asked, scene, run_seed, out)
+                let pictures = Pictures::of(&drawing.slots(), stem(path));
+                let asked = Asked { encoding, organs, words: about.in_words(), pictures };
+                usd::write_plant(&asked, scene, run_seed, out)?;
+                beside_usd(&asked, path)
             }
+            Self::Obj => write_obj(&drawing, out, path),
         }
     }
 
@@ -85,17 +97,55 @@ impl Format {
     ///
     /// # Errors
     /// As [`Format::write_plant`].
-    pub fn write_plot(self, plot: &PlotMesh, out: &mut Destination) -> io::Result<()> {
+    pub fn write_plot(self, plot: &PlotMesh, out: &mut Destination, path: &Path) -> io::Result<()> {
         match self {
             Self::Ply => plot.write(out),
             Self::Glb(Organs::Merged) => write_still(&plot.drawing()?, out),
             Self::Glb(Organs::Instances) => write_plot_instanced(plot, out),
             Self::Stl => write_stl(&plot.drawing()?, out),
             Self::Usd(encoding, organs) => {
-                usd::write_plot(&Asked { encoding, organs, words: plot.name.clone() }, plot, out)
+                let pictures = Pictures::of(&plot.drawing()?.slots(), stem(path));
+                let asked = Asked { encoding, organs, words: plot.name.clone(), pictures };
+                usd::write_plot(&asked, plot, out)?;
+                beside_usd(&asked, path)
             }
+            Self::Obj => write_obj(&plot.drawing()?, out, path),
         }
     }
+}
+
+/// The name of a file without its ending.
+fn stem(path: &Path) -> &str {
+    path.file_stem().and_then(OsStr::to_str).unwrap_or("plant")
+}
+
+/// Writes an OBJ file with its library of materials and its pictures.
+fn write_obj(mesh: &dyn Drawing, out: &mut Destination, path: &Path) -> io::Result<()> {
+    let (obj, library) = (Obj::of(mesh)?, format!("{}.mtl", stem(path)));
+    obj.write(&library, out)?;
+    let pictures = Pictures::of(&mesh.slots(), stem(path));
+    beside(path, &library, &mut |file| obj.write_materials(&pictures, file))?;
+    write_pictures(&pictures, path)
+}
+
+/// Writes the pictures of a USD file that is no package.
+fn beside_usd(asked: &Asked, path: &Path) -> io::Result<()> {
+    if asked.encoding == Encoding::Package { Ok(()) } else { write_pictures(&asked.pictures, path) }
+}
+
+fn write_pictures(pictures: &Pictures, path: &Path) -> io::Result<()> {
+    pictures
+        .files()
+        .iter()
+        .try_for_each(|(picture, name)| beside(path, name, &mut |file| file.write_all(&picture.bytes)))
+}
+
+/// Writes a file beside the one that is named.
+fn beside(path: &Path, name: &str, fill: &mut dyn FnMut(&mut dyn Write) -> io::Result<()>) -> io::Result<()> {
+    let told = |error: &dyn std::fmt::Display| io::Error::other(format!("{name} beside it: {error}"));
+    let mut file = Destination::create(&path.with_file_name(name)).map_err(|error| told(&error))?;
+    fill(&mut file).map_err(|error| told(&error))?;
+    file.finish().map(drop).map_err(|error| told(&error))
 }
 
 #[cfg(test)]
@@ -112,16 +162,17 @@ mod tests {
             ("a.usdc", Format::Usd(Encoding::Binary, Organs::Instances)),
             ("a.USDA", Format::Usd(Encoding::Text, Organs::Instances)),
             ("a.usdz", Format::Usd(Encoding::Package, Organs::Instances)),
+            ("a.obj", Format::Obj),
             ("plain", Format::Ply),
             ("-", Format::Ply),
         ] {
             assert_eq!(Format::of(Path::new(name)).map_err(|misuse| misuse.0), Ok(format), "{name}");
         }
-        let told = Format::of(Path::new("a.obj")).expect_err("no format").0;
+        let told = Format::of(Path::new("a.fbx")).expect_err("no format").0;
         assert_eq!(
             told,
-            "--out a.obj: `mesh` cannot write `.obj`; the formats that it has: PLY (.ply), GLB (.glb), STL (.stl), \
-             USD (.usdc), USD (.usda), USD (.usdz)"
+            "--out a.fbx: `mesh` cannot write `.fbx`; the formats that it has: PLY (.ply), GLB (.glb), STL (.stl), \
+             USD (.usdc), USD (.usda), USD (.usdz), OBJ (.obj)"
         );
     }
 }

@@ -74,7 +74,7 @@ impl Growing {
                     .to_owned(),
             )),
             (Format::Glb(_), Some(leaves)) => Ok(Format::Glb(leaves.organs())),
-            (Format::Ply | Format::Stl, Some(_)) => Err(Misuse(
+            (Format::Ply | Format::Stl | Format::Obj, Some(_)) => Err(Misuse(
                 "--leaves: this is for USD and GLB, whose names end in .usdc, .usda, .usdz or .glb".to_owned(),
             )),
         }

@@ -76,7 +76,7 @@ pub fn write(mesh: &Mesh, regrown: &Regrown, format: Format, joints: u32) -> Res
     let drawing = PlantDrawing { scene: &scene, about: scene.about(regrown.scenario.seed) };
     let written = match format {
         Format::Glb(_) => check_size(&scene).and_then(|()| sway.write(&drawing, &wind, &mut file)),
-        Format::Ply | Format::Stl | Format::Usd(..) => return Err(format.holds_no("rig").into()),
+        Format::Ply | Format::Stl | Format::Usd(..) | Format::Obj => return Err(format.holds_no("rig").into()),
     };
     written.with_context(|| mesh.failing())?;
     let bytes = amounts::bytes(file.finish()? as f64);

@@ -12,7 +12,7 @@ use phytomer::run::drawing::options_of;
 use phytomer::run::living::{Living, lives};
 use phytomer::run::regrowth::Whose;
 use phytomer_outputs::Destination;
-use phytomer_outputs::meshes::{Drawing, PlotMesh, Tolerance};
+use phytomer_outputs::meshes::{Drawing, Pictures, PlotMesh, Tolerance};
 use phytomer_outputs::usd::{self, Asked, Pace, Plants};
 
 /// How near a life is to the plant where nothing is said, metres.
@@ -44,7 +44,7 @@ pub fn write(mesh: &Mesh, regrown: &Regrown, format: Format) -> Result<Verdict> 
     let obstacles = obstacles.as_ref().map(PlotMesh::drawing).transpose()?;
     let obstacles = obstacles.as_ref().map(|obstacles| obstacles as &dyn Drawing);
     let plants = Plants { obstacles, ..Plants::of(lives, options, members) };
-    let asked = Asked { encoding, organs, words };
+    let asked = Asked { encoding, organs, words, pictures: Pictures::default() };
     let pace = pace(ages, mesh.growing.seconds);
     usd::write_life(&asked, &plants, within.distance, &pace, &mut file).with_context(|| mesh.failing())?;
     let plants = mesh.plot.map(|_| format!(", {}", amounts::of(members.len() as u64, "plant"))).unwrap_or_default();

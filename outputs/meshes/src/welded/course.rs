@@ -31,11 +31,11 @@ pub struct Station {
     pub node: NodeId,
     /// Unit vectors along the limb, and towards the angles 0 and π/2.
     pub along: DVec3,
-    up: DVec3,
-    side: DVec3,
+    pub(super) up: DVec3,
+    pub(super) side: DVec3,
     /// The unit vector towards the inner side of a bend, and by how much the ring is wider on the outer and the inner.
-    bend: DVec3,
-    wider: [f64; 2],
+    pub(super) bend: DVec3,
+    pub(super) wider: [f64; 2],
 }
 
 /// Where a point is beside a limb.

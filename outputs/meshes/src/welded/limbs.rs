@@ -54,6 +54,16 @@ impl Outlines {
         place as u32
     }
 
+    /// The place of another outline, behind all regular ones.
+    pub fn add(&mut self, outline: Outline) -> u32 {
+        let first = self.sections.len() + usize::from(u16::MAX) + 1;
+        if self.list.len() < first {
+            self.list.resize_with(first, Outline::default);
+        }
+        self.list.push(outline);
+        self.list.len() as u32 - 1
+    }
+
     /// What the skin of an internode is made of; `None` where it is drawn by itself.
     pub fn skin(&self, stems: &Stems, node: NodeId) -> Option<Skin> {
         let frustum = stems.frustum(node);

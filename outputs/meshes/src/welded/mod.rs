@@ -12,26 +12,33 @@
 mod bands;
 mod collar;
 mod course;
+mod flare;
 mod foot;
+mod fork;
 mod limbs;
 mod outline;
+mod points;
 mod skin;
 #[cfg(test)]
 mod tests;
+#[cfg(test)]
+mod tests_feet;
 
 use super::chunk::{Face, Vertex};
+use super::dress::covered;
 use super::reduced::chain::Sample;
 use super::reduced::{sides, simplify::simplify};
 use super::stem::Stems;
 use super::{Counts, Tolerance};
 use course::{Course, Station};
 use foot::{Foot, Out};
+use fork::Fork;
 use glam::{DVec3, Vec3};
 use limbs::{Limbs, Outlines};
 use outline::Outline;
 use phytomer_sim::plant::NodeId;
+use points::{normals, part};
 use skin::Skin;
-use std::collections::HashSet;
 use std::f32::consts::TAU;
 
 /// How far from one another limbs leave their bearer of which one may run along in the other, in radii.
@@ -63,8 +70,13 @@ struct Stand<'s> {
     borne: Vec<Vec<(u32, f64)>>,
     /// For each node the limb in whose skin it is, and the length along that limb at its base and its tip, metres.
     places: Vec<(u32, [f32; 2])>,
-    /// The length along all limbs from the ground to where the length along a limb counts from, metres.
-    ground: Vec<f64>,
+    /// For each limb the one that bears it, and the length along that one near which it begins, metres; none of those
+    /// on the ground.
+    bearers: Vec<Option<(usize, f64)>>,
+    /// For each limb the forks along it.
+    forks: Vec<Vec<Fork>>,
+    /// The length along the trunk at which its flare ends, metres.
+    flare_ends: f64,
 }
 
 impl Welded {
@@ -75,28 +87,63 @@ impl Welded {
         stand.welded()
     }
 
+    /// The flare around the foot of the trunk, for wood that is drawn by itself; `None` where there is none.
+    pub fn flare(stems: &Stems) -> Option<Self> {
+        stems.flare.as_ref()?;
+        let mut stand = Stand::of(stems);
+        if stand.limbs.len() == 0 {
+            return None;
+        }
+        let mut skin = Skin::of(stand.limbs.len(), stems.bark.is_some());
+        stand.courses.resize_with(stand.limbs.len(), || None);
+        let mut course = stand.course(0, None);
+        let foot = course.stations().iter().filter(|station| station.z <= stand.flare_ends);
+        let foot: Vec<Station> = foot.copied().collect();
+        if foot.len() < 2 {
+            return None;
+        }
+        course = Course::through(foot, false);
+        let up = stems.frustum(stand.limbs.limb(0).0[0]).up;
+        course.turn(DVec3::from_array(up.map(f64::from)));
+        skin.add(0, &course, &bands::rows(&course, &mut []), &[], &stand.outlines.list);
+        stand.courses[0] = Some(course);
+        let mut flare = Self::default();
+        let ends = vec![skin.points.len(); stand.limbs.len()];
+        stand.write(&skin, &ends, &normals(&skin), &mut flare.vertices);
+        flare.faces = skin.faces.iter().map(|face| Face::new(*face)).collect();
+        Some(flare)
+    }
+
+    /// The same with what another one has.
+    pub fn with(mut self, other: Self) -> Self {
+        let first = self.vertices.len() as u32;
+        self.vertices.extend(other.vertices);
+        self.faces.extend(other.faces.iter().map(|face| Face::new(face.indices().map(|corner| corner + first))));
+        self
+    }
+
     /// Collars around the feet of the limbs, for wood that is drawn by itself.
     pub fn collars(stems: &Stems) -> Self {
         let mut stand = Stand::of(stems);
         stand.grow(None);
         let mut skin = Skin::of(0, stems.bark.is_some());
-        let mut found: Vec<(usize, &Foot)> = stand
-            .feet
-            .iter()
-            .enumerate()
-            .flat_map(|(bearer, feet)| feet.iter().map(move |foot| (bearer, foot)))
-            .collect();
-        found.sort_by_key(|(_, foot)| foot.limb);
-        let mut ends = vec![0; stand.limbs.len()];
-        for (bearer, foot) in found {
-            let own = foot.limb as usize;
-            if let (Some(below), Some(course)) = (&stand.courses[bearer], &stand.courses[own]) {
-                collar::add(&mut skin, (below, foot), course, &stand.outlines.list);
-            }
-            ends[own] = skin.points.len();
+        let mut found: Vec<Option<(usize, &Foot)>> = vec![None; stand.limbs.len()];
+        for (bearer, feet) in stand.feet.iter().enumerate() {
+            feet.iter().for_each(|foot| found[foot.limb as usize] = Some((bearer, foot)));
         }
-        // A limb without a collar ends where the one before it does.
-        (1..ends.len()).for_each(|limb| ends[limb] = ends[limb].max(ends[limb - 1]));
+        let mut ends = Vec::with_capacity(stand.limbs.len());
+        for (limb, found) in found.into_iter().enumerate() {
+            let course = stand.courses.get(limb).and_then(Option::as_ref);
+            let below = found.and_then(|(bearer, foot)| Some((stand.courses[bearer].as_ref()?, foot)));
+            if let (Some(course), Some(on)) = (course, below) {
+                collar::add(&mut skin, on, course, &stand.outlines.list);
+            }
+            if let (Some(course), Some(forks)) = (course, stand.forks.get(limb)) {
+                let seen = forks.iter().filter(|fork| fork.z > course.ends()[0]);
+                seen.for_each(|fork| fork::skirt(&mut skin, fork, course, &stand.outlines.list));
+            }
+            ends.push(skin.points.len());
+        }
         let mut collars = Self::default();
         stand.write(&skin, &ends, &normals(&skin), &mut collars.vertices);
         collars.faces = skin.faces.iter().map(|face| Face::new(*face)).collect();
@@ -114,9 +161,20 @@ impl<'s> Stand<'s> {
         let outlines = Outlines::of(stems);
         let limbs = Limbs::of(stems, &outlines);
         let places = vec![(u32::MAX, [0.0; 2]); stems.plant.nodes.len()];
-        let (feet, borne, ground) =
-            (vec![Vec::new(); limbs.len()], vec![Vec::new(); limbs.len()], vec![0.0; limbs.len()]);
-        Self { stems, outlines, courses: Vec::with_capacity(limbs.len()), limbs, feet, borne, places, ground }
+        let (feet, borne, bearers) =
+            (vec![Vec::new(); limbs.len()], vec![Vec::new(); limbs.len()], vec![None; limbs.len()]);
+        Self {
+            stems,
+            outlines,
+            courses: Vec::with_capacity(limbs.len()),
+            limbs,
+            feet,
+            borne,
+            places,
+            bearers,
+            forks: Vec::new(),
+            flare_ends: 0.0,
+        }
     }
 
     /// Finds the course of each limb and where it stands on its bearer.
@@ -146,7 +204,7 @@ impl<'s> Stand<'s> {
             let up = if course.is_turned() { up } else { foot.up(below, &course, list) };
             course.begin(foot.begins);
             course.turn(up);
-            self.ground[limb] = self.ground[bearer] + at;
+            self.bearers[limb] = Some((bearer, at));
             self.feet[on].push(foot);
             self.borne[bearer].push((limb as u32, at));
             self.courses.push(Some(course));
@@ -226,14 +284,20 @@ impl<'s> Stand<'s> {
             let z = only.z + f64::from(Tolerance::LEAST);
             stations.push(Station::new(z, at, only.radius, only.outline, only.node));
         }
+        let axis = |station: &Station| self.stems.plant.nodes.axis[station.node.index()];
+        let (mut stations, forks) = fork::evened(stations, |below, above| axis(below) != axis(above));
+        self.forks.resize_with(self.forks.len().max(limb + 1), Vec::new);
+        self.forks[limb] = forks;
         let own = |node: &NodeId| matches!(self.outlines.skin(self.stems, *node), Some(limbs::Skin::Tube(_, true)));
         match tolerance {
-            Some(tolerance) if !is_turned && !nodes.iter().any(own) => {
-                let kept = self.kept(stations, tolerance);
-                Course::through(kept, is_turned)
-            }
-            _ => Course::through(stations, is_turned),
+            Some(tolerance) if !is_turned && !nodes.iter().any(own) => stations = self.kept(stations, tolerance),
+            _ => {}
         }
+        // The first limb is the trunk.
+        if let Some(flare) = self.stems.flare.as_ref().filter(|_| limb == 0 && !is_turned) {
+            (stations, self.flare_ends) = flare::flared(flare, stations, &mut self.outlines);
+        }
+        Course::through(stations, is_turned)
     }
 
     /// The stations that a tolerance asks for, each with as many sides as it asks for.
@@ -280,11 +344,22 @@ impl<'s> Stand<'s> {
         welded
     }
 
-    /// How often a texture goes around a limb, and how many metres it covers along it: once a metre where no bark is
-    /// asked for. A whole number of times, so that no seam is seen: the nearest to the circumference, at least once.
-    fn texture(&self, limb: usize) -> [f32; 2] {
-        let around = self.courses[limb].as_ref().map_or(0.0, Course::circumference) as f32;
-        self.stems.bark.as_ref().map_or([1.0; 2], |bark| [(around / bark.metres()).round().max(1.0), bark.metres()])
+    /// For each limb how often a texture goes around it, the metres that it covers along it, and how often it stands
+    /// below where the length along the limb counts from: it goes on from the bearer. Once a metre, and once around,
+    /// where no bark is asked for.
+    fn textures(&self) -> Vec<([f32; 2], f64)> {
+        let mut all: Vec<([f32; 2], f64)> = Vec::with_capacity(self.limbs.len());
+        for (limb, bearer) in self.bearers.iter().enumerate() {
+            let size =
+                self.stems.bark.as_ref().and_then(|bark| bark.size(self.stems.plant, self.limbs.limb(limb).0[0]));
+            let around = self.courses[limb].as_ref().map_or(0.0, Course::circumference);
+            let below = bearer.map_or(0.0, |(bearer, at)| {
+                let ([_, over], below) = all[bearer];
+                below + at / f64::from(over)
+            });
+            all.push((size.map_or([1.0; 2], |size| covered(size, around)), below));
+        }
+        all
     }
 
     /// The vertices of the points; `ends` has the number of points up to the end of each limb.
@@ -292,9 +367,7 @@ impl<'s> Stand<'s> {
         out.reserve_exact(skin.points.len());
         let (mut last, mut tag) = (NodeId::NONE, None);
         let mut first = 0;
-        for (limb, &end) in ends.iter().enumerate() {
-            let ground = self.ground[limb] as f32;
-            let [times, over] = self.texture(limb);
+        for (&end, ([times, over], below)) in ends.iter().zip(self.textures()) {
             for point in &skin.points[first..end] {
                 let tag = match &tag {
                     Some(tag) if point.node == last => tag,
@@ -302,7 +375,7 @@ impl<'s> Stand<'s> {
                 };
                 last = point.node;
                 let one = point.one as usize;
-                let texture = [point.angle / TAU * times, (ground + point.z) / over];
+                let texture = [point.angle / TAU * times, below as f32 + point.z / over];
                 out.push(Vertex::new(skin.points[one].at, normals[one].to_array(), texture, tag));
             }
             first = end;
@@ -324,39 +397,4 @@ fn put(stations: &mut Vec<Station>, mut station: Station) -> f64 {
     }
     stations.push(station);
     station.z
-}
-
-/// Puts points on a grid of [`STEP`], and moves those apart that have one place on it: readers merge what is nearer
-/// than a hundredth of a micrometre.
-fn part(skin: &mut Skin) {
-    let mut places: HashSet<[u32; 3]> = HashSet::with_capacity(skin.points.len());
-    for (number, point) in skin.points.iter_mut().enumerate() {
-        if point.one as usize != number {
-            continue;
-        }
-        point.at = point.at.map(on_grid);
-        while !places.insert(point.at.map(f32::to_bits)) && point.at[0].is_finite() {
-            point.at[0] = on_grid(point.at[0] + STEP).max(point.at[0].next_up());
-        }
-    }
-}
-
-/// The grid of the points of welded wood, 2⁻²⁴ m: from a metre on all numbers of single precision are on it.
-const STEP: f32 = 1.0 / 16_777_216.0;
-
-/// The nearest number on the grid; never -0, which is another number for readers that compare bytes.
-fn on_grid(x: f32) -> f32 {
-    if x.abs() < 1.0 { (x / STEP).round() * STEP + 0.0 } else { x }
-}
-
-/// The unit normal of each point: the sum of those of its triangles, each by its area.
-fn normals(skin: &Skin) -> Vec<Vec3> {
-    let mut sums = vec![Vec3::ZERO; skin.points.len()];
-    for face in &skin.faces {
-        let ones = face.map(|corner| skin.points[corner as usize].one as usize);
-        let [a, b, c] = ones.map(|one| Vec3::from_array(skin.points[one].at));
-        let across = (b - a).cross(c - a);
-        ones.into_iter().for_each(|one| sums[one] += across);
-    }
-    sums.into_iter().map(|sum| sum.try_normalize().unwrap_or(Vec3::Z)).collect()
 }

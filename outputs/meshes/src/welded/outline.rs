@@ -24,6 +24,7 @@ pub struct Outline {
     corners: Vec<Corner>,
     /// Whether the corners stand at equal angles from 0 on.
     regular: bool,
+    is_lobed: bool,
 }
 
 impl Outline {
@@ -36,7 +37,22 @@ impl Outline {
             let (sin, cos) = sincos(angle);
             Corner { angle, turned: [cos, sin], reach }
         };
-        Self { corners: (0..sides.max(3)).map(corner).collect(), regular: true }
+        Self { corners: (0..sides.max(3)).map(corner).collect(), regular: true, is_lobed: false }
+    }
+
+    /// A polygon of so many corners at equal angles, each as far out as `reach` tells of its angle.
+    pub fn lobed(corners: u32, reach: impl Fn(f64) -> f64) -> Self {
+        let corner = |k: u32| {
+            let angle = TAU * f64::from(k) / f64::from(corners);
+            let (sin, cos) = sincos(angle);
+            Corner { angle, turned: [cos, sin], reach: reach(angle) }
+        };
+        Self { corners: (0..corners).map(corner).collect(), regular: true, is_lobed: true }
+    }
+
+    /// Whether it goes in and out, so that not all of it is seen from each of its corners.
+    pub fn is_lobed(&self) -> bool {
+        self.is_lobed
     }
 
     /// A closed section; `None` where it is open, or where a ray from the axis line meets it more than once.
@@ -56,7 +72,7 @@ impl Outline {
         let steps = (0..corners.len()).map(|k| step(&corners, k));
         let star = corners.iter().all(|corner| corner.reach > 1e-6)
             && steps.into_iter().all(|step| step > 1e-6 && step < 0.95 * PI);
-        star.then_some(Self { corners, regular: false })
+        star.then_some(Self { corners, regular: false, is_lobed: false })
     }
 
     /// Its corners, by their angles.

@@ -94,8 +94,11 @@ impl Skin {
                         debug_assert!(!is_open);
                         return;
                     }
-                    self.ring(station, &outlines[station.outline as usize], &mut low);
-                    if is_open {
+                    let outline = &outlines[station.outline as usize];
+                    self.ring(station, outline, &mut low);
+                    if is_open && outline.is_lobed() {
+                        self.fan(station, &low);
+                    } else if is_open {
                         self.cap(&low, true)
                     } else {
                         join(&below, &low, &mut self.faces)
@@ -172,7 +175,8 @@ impl Skin {
         join(low, high, &mut self.faces);
     }
 
-    fn ring(&mut self, station: &Station, outline: &Outline, line: &mut Line) {
+    /// Makes a line of the ring of a station.
+    pub fn ring(&mut self, station: &Station, outline: &Outline, line: &mut Line) {
         line.clear();
         let station = &station.at_least(POINT);
         for corner in outline.corners() {
@@ -198,6 +202,13 @@ impl Skin {
     fn apex(&mut self, station: &Station, below: &Line) {
         let top = self.new_point(station.at, 0.0, station.z, station.node);
         let pairs = below.points.windows(2).map(|pair| [pair[0], pair[1], top]);
+        self.faces.extend(pairs);
+    }
+
+    /// Closes the lower end of a limb around its middle.
+    fn fan(&mut self, station: &Station, line: &Line) {
+        let middle = self.new_point(station.at, 0.0, station.z, station.node);
+        let pairs = line.points.windows(2).map(|pair| [pair[1], pair[0], middle]);
         self.faces.extend(pairs);
     }
 

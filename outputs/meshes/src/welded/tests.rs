@@ -11,23 +11,23 @@ use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 
 /// A plant whose internodes state where they are.
-struct Sketch {
-    plant: Plant,
+pub struct Sketch {
+    pub plant: Plant,
 }
 
 impl Sketch {
-    fn new() -> Self {
+    pub fn new() -> Self {
         let seed = Seed { plant: 0, draws: 0, run_seed: 1, component_limit: 100_000, keep_events: false };
         let habit = Habit { looks: Looks::of_shape(Shape::Cone), ..Habit::default() };
         Self { plant: Plant::new(&seed, Arc::new(habit)) }
     }
 
-    fn axis(&mut self, bearer: Option<NodeId>) -> AxisId {
+    pub fn axis(&mut self, bearer: Option<NodeId>) -> AxisId {
         self.plant.add_axis(NewAxis { bearer, order: 1 + u8::from(bearer.is_some()), ..NewAxis::OF_THE_SEED })
     }
 
     /// An internode from a place to another, with its radii.
-    fn internode(&mut self, axis: AxisId, parent: Option<NodeId>, ends: [[f64; 3]; 2], radii: [f64; 2]) -> NodeId {
+    pub fn internode(&mut self, axis: AxisId, parent: Option<NodeId>, ends: [[f64; 3]; 2], radii: [f64; 2]) -> NodeId {
         let [from, to] = ends;
         let way: [f64; 3] = [0, 1, 2].map(|k| to[k] - from[k]);
         let length = way.iter().map(|x| x * x).sum::<f64>().sqrt();
@@ -57,7 +57,7 @@ impl Sketch {
         id
     }
 
-    fn welded(&self, sides: u8, tolerance: Option<f32>) -> Mesh {
+    pub fn welded(&self, sides: u8, tolerance: Option<f32>) -> Mesh {
         let tolerance = tolerance.map(Tolerance::of);
         let options = MeshOptions { sides, joints: Joints::Welded, tolerance, ..MeshOptions::default() };
         let mesh = mesh_plant(&self.plant, 1, &options);
@@ -67,7 +67,7 @@ impl Sketch {
 }
 
 /// Counts how a mesh hangs together.
-fn assert_sphere(mesh: &Mesh) {
+pub fn assert_sphere(mesh: &Mesh) {
     let mut edges = BTreeMap::new();
     for face in &mesh.faces {
         let corners = face.indices();
@@ -106,12 +106,12 @@ fn assert_sphere(mesh: &Mesh) {
     }
 }
 
-fn volume(mesh: &Mesh) -> f64 {
+pub fn volume(mesh: &Mesh) -> f64 {
     super::super::measure::volume(&mesh.vertices, &mesh.faces)
 }
 
 /// A trunk of 2 m along z, with a node at every tenth.
-fn trunk(sketch: &mut Sketch, radius: f64) -> Vec<NodeId> {
+pub fn trunk(sketch: &mut Sketch, radius: f64) -> Vec<NodeId> {
     let axis = sketch.axis(None);
     let mut parent = None;
     (0..20)

@@ -115,6 +115,8 @@ impl<'o> Binary<'o> {
             Data::Flag(yes) => Rep::inlined(Type::Bool, u32::from(yes)),
             Data::Float(number) => Rep::inlined(Type::Float, number.to_bits()),
             Data::Triple(numbers) => self.values.write(Type::Vec3f, bytemuck::bytes_of(&numbers))?,
+            Data::Quad(numbers) => self.values.write(Type::Vec4f, bytemuck::bytes_of(&numbers))?,
+            Data::File(path) => Rep::inlined(Type::AssetPath, self.tables.token(path)),
             Data::Ints(numbers) => self.values.write_ints(numbers)?,
             Data::Longs(numbers) => self.values.write_longs(numbers)?,
             Data::Floats(numbers) => self.values.write_list(Type::Float, numbers)?,

@@ -13,15 +13,19 @@ mod ply;
 mod tests;
 
 use super::{Depth, FormMesh, Point};
-use phytomer_looks::polygon;
+use crate::texture::Textures;
+use phytomer_looks::{Flare, polygon};
 
 /// The most triangles of a mesh file, since an organ is drawn thousands of times.
 pub const MOST_TRIANGLES: usize = 10_000;
 
-/// The mesh files that a species names as forms, in the order of their numbers.
+/// What a species states for meshes by itself: the mesh files that it names as forms, in the order of their numbers,
+/// its textures, and the flare of its trunk.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct OwnForms {
     forms: Vec<OwnForm>,
+    textures: Textures,
+    flare: Option<Flare>,
 }
 
 /// A mesh file as a form.
@@ -88,7 +92,22 @@ impl OwnForms {
     /// The fault of the first file that is not such a mesh.
     pub fn read<'a>(files: impl IntoIterator<Item = (&'a str, &'a [u8])>) -> Result<Self, MeshFault> {
         let forms: Result<_, MeshFault> = files.into_iter().map(|(name, bytes)| shape_of(name, bytes)).collect();
-        Ok(Self { forms: forms? })
+        Ok(Self { forms: forms?, ..Self::default() })
+    }
+
+    /// The same with textures and a flare.
+    pub fn with(self, textures: Textures, flare: Option<Flare>) -> Self {
+        Self { textures, flare, ..self }
+    }
+
+    /// The textures.
+    pub fn textures(&self) -> &Textures {
+        &self.textures
+    }
+
+    /// How the foot of the trunk widens.
+    pub fn flare(&self) -> Option<&Flare> {
+        self.flare.as_ref()
     }
 
     /// The number of forms.
