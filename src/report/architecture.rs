@@ -15,6 +15,9 @@ const TABLES: [(&str, Option<&str>, &str); 3] = [
     ("branching", None, "Axes for one of the order before, and Strahler's ratio"),
 ];
 
+/// The measures of which measured plants have none: no file tells when what is not in it any more has died.
+const OF_GROWTH: [&str; 2] = ["axis-life", "activity"];
+
 /// The figures and tables of all runs.
 pub fn parts(runs: &[Reported]) -> Vec<Part> {
     let lives = gathered(runs, "axis-life", Some("order"), |sheet, name| lines(sheet, name, Mark::Steps, of_life));
@@ -62,6 +65,9 @@ fn figure(id: &str, title: &str, caption: &str, [x, y]: [Axis; 2], series: Vec<S
 /// A measure of a run, or why there is none.
 fn found(reported: &Reported, name: &str, by: Option<&str>) -> Result<Measured, String> {
     let lack = |reason: String| format!("{}: `{name}` is not told: {reason}.", reported.name);
+    if reported.trial.is_none() && OF_GROWTH.contains(&name) {
+        return Err(lack("it is of plants that are followed while they grow, and these were measured".to_owned()));
+    }
     let card =
         MEASURES.iter().find(|card| card.name == name).ok_or_else(|| lack("there is no such measure".to_owned()))?;
     let asked = Asked { by: by.map(str::to_owned), level: LEVEL, ..Asked::default() };

@@ -60,8 +60,10 @@ pub use file::{MeshError, MeshFile, write_mesh};
 pub use forms::own::{MeshFault, OwnForms, check as check_form};
 pub use forms::{Depth, FormMesh, Point as FormPoint};
 pub use model::Model;
+pub use near::{NearForm, Nears, SharedNears};
 pub use outline::OwnForm;
 pub use patched::Patched;
+pub use phytomer_looks::MOST_DETAIL;
 pub use plot::{PlotBody, PlotDrawing, PlotMember, PlotMesh};
 pub use ply::Ply;
 pub use reduced::chain::{Found, Sample, chains};
@@ -182,6 +184,8 @@ pub struct MeshOptions {
     pub attributes: bool,
     /// How finely organs are drawn, from 0, a few polygons, to [`phytomer_looks::MOST_DETAIL`].
     pub detail: u8,
+    /// The forms from near that plants with these options have met.
+    pub nears: SharedNears,
 }
 
 impl MeshOptions {
@@ -224,6 +228,7 @@ impl Default for MeshOptions {
             swings: None,
             attributes: false,
             detail: 0,
+            nears: SharedNears::default(),
         }
     }
 }

@@ -33,6 +33,8 @@ mod survey;
 #[cfg(test)]
 mod tests;
 #[cfg(test)]
+mod tests_facet;
+#[cfg(test)]
 mod tests_framing;
 mod tone;
 mod value_colours;
