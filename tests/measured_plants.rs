@@ -205,7 +205,8 @@ fn measured_plants_are_of_the_models_by_which_they_grew() {
 }
 
 /// The coffee tree that Archimed ships is of Roux's model, as coffee is (Hallé, Oldeman & Tomlinson 1978). It was
-/// measured without flowers and growth units, so that it may be of Massart's too, and of no model with upright branches.
+/// measured without flowers and growth units, so that it may be of Massart's too, but of no model with upright
+/// branches.
 #[test]
 fn the_measured_coffee_tree_is_of_rouxs_model() {
     let text = absent::measured("exchange/coffee.opf");

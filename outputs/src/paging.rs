@@ -85,8 +85,8 @@ impl Rows {
 }
 
 impl Rows {
-    /// Adds rows of a measured plant as its table has them, with all columns of `records` in their order; how internodes
-    /// are turned is what the plant that is drawn has.
+    /// Adds rows of a measured plant as its table has them, with all columns of `records` in their order; how
+    /// internodes are turned is what the plant that is drawn has.
     pub fn show_told<'r>(
         &self,
         table: &mut Table,

@@ -23,22 +23,24 @@ pub fn parts(runs: &[Reported]) -> Vec<Part> {
     let lives = gathered(runs, "axis-life", Some("order"), |sheet, name| lines(sheet, name, Mark::Steps, of_life));
     let profile =
         gathered(runs, "crown-profile", Some("treatment"), |sheet, name| lines(sheet, name, Mark::Line, of_layer));
-    let mut parts = vec![
+    let lived = || {
         figure(
             "axis-life",
             "Axes that live by their dimension",
             "Kaplan–Meier estimate of axes with all that they bear, by order; the numbers have intervals of plants.",
             [Axis::of("dimension", "ticks since the first internode"), Axis::of("share of axes alive", "")],
             lives.0,
-        ),
-        figure(
-            "crown-profile",
-            "Leaf area by height at the last recorded age",
-            "The mean leaf area of a plant in layers of half a metre; the numbers have intervals of plants.",
-            [Axis::of("leaf area in the layer", "m²"), Axis::of("middle of the layer above the seed", "m")],
-            profile.0,
-        ),
-    ];
+        )
+    };
+    let mut parts = Vec::new();
+    parts.extend(runs.iter().any(|reported| reported.trial.is_some()).then(lived));
+    parts.push(figure(
+        "crown-profile",
+        "Leaf area by height at the last recorded age",
+        "The mean leaf area of a plant in layers of half a metre; the numbers have intervals of plants.",
+        [Axis::of("leaf area in the layer", "m²"), Axis::of("middle of the layer above the seed", "m")],
+        profile.0,
+    ));
     parts.extend(lives.1.into_iter().chain(profile.1).map(Part::Text));
     for (name, by, words) in TABLES {
         for reported in runs {

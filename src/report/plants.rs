@@ -166,8 +166,8 @@ impl Group {
     }
 }
 
-/// "ticks of one month"; of several runs with other ticks, "ticks". Ages of measured plants are days where their file has
-/// dates.
+/// "ticks of one month"; of several runs with other ticks, "ticks". Ages of measured plants are days where their file
+/// has dates.
 fn tick_in_words(runs: &[Reported]) -> String {
     let dated = |reported: &Reported| {
         let dates = &reported.run.json()["resolved_scenario"]["measured"]["dates"];
@@ -177,6 +177,7 @@ fn tick_in_words(runs: &[Reported]) -> String {
         return "days since the first date".to_owned();
     }
     let mut ticks = runs.iter().flat_map(|reported| &reported.species).map(|species| species.about.tick.as_str());
-    let first = ticks.next().unwrap_or("ticks");
+    let measured = runs.iter().any(|reported| reported.trial.is_none());
+    let Some(first) = ticks.next().filter(|_| !measured) else { return "ticks".to_owned() };
     if ticks.all(|tick| tick == first) { format!("ticks of {first}") } else { "ticks".to_owned() }
 }

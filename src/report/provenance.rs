@@ -71,10 +71,12 @@ fn of_measured(reported: &Reported) -> String {
         0 => String::new(),
         without => format!(" Of {without} the file tells no places, so that they cannot be drawn."),
     };
+    let plants = count("plants");
+    let plants = if plants == 1 { "1 plant".to_owned() } else { format!("{plants} plants") };
+    let was = if plants == "1 plant" { "was" } else { "were" };
     format!(
-        "{} plants of {} were measured{when}: the {} file {} was read with phytomer {} ({}). Values that it does not tell are \
+        "{plants} of {} {was} measured{when}: the {} file {} was read with phytomer {} ({}). Values that it does not tell are \
          left out.{without}",
-        count("plants"),
         reported.name,
         words(told, "format"),
         words(told, "file"),

@@ -109,7 +109,12 @@ impl MeasuredView<'_> {
         let numbers: Vec<String> = self.numbers.iter().map(u32::to_string).collect();
         Page {
             title: if species.is_empty() { self.name.clone() } else { species.join(", ") },
-            note: format!("plants {} of {} as measured", numbers.join(", "), self.name),
+            note: format!(
+                "{} {} of {} as measured",
+                if numbers.len() == 1 { "plant" } else { "plants" },
+                numbers.join(", "),
+                self.name
+            ),
             run: self.name.clone(),
             seed: 0,
             tolerance,

@@ -2,7 +2,8 @@
 //!
 //! The classifier reads the first plants of a run from `components` and, where the run has the columns of mechanics,
 //! from `records`. Of measured plants no file tells the trend of an axis, so how the axes of its order lie stands for
-//! it, and what else is not told is not held against a model. Absent: runs whose first plants have millions of components, which are not classified.
+//! it, and what else is not told is not held against a model. Absent: runs whose first plants have millions of
+//! components, which are not classified.
 
 use super::tolerance::{LEAST_COURSE, STEEP_DEG, TURNS_UP};
 use super::{Characters, Untold, architectures};
@@ -83,10 +84,12 @@ impl Qualified {
     }
 }
 
-/// The trend of the axes of each order by how they lie at the last recorded age, degrees from the upward vertical: 0 for
-/// upright orders, 90 for level ones. Orthotropic axes spring at any angle and turn up; plagiotropic ones keep theirs.
-/// So an order is upright where the median of its axes is steep at the end, or turns up by a good part of its first
-/// angle. Axes of few internodes do not show it yet.
+/// The trend of the axes of each order by how they lie at the last recorded age, degrees from the upward vertical: 0
+/// for upright orders, 90 for level ones.
+///
+/// Orthotropic axes spring at any angle and turn up; plagiotropic ones keep theirs. So an order is upright where the
+/// median of its axes is steep at the end, or turns up by a good part of its first angle. Axes of few internodes do not
+/// show it yet.
 fn trends(components: &[ComponentRow], poses: &[PoseRow]) -> BTreeMap<u32, f32> {
     let last = poses.iter().map(|pose| pose.age).max().unwrap_or_default();
     let mut axes: BTreeMap<u32, Vec<(u32, f32)>> = BTreeMap::new();

@@ -68,12 +68,12 @@ impl<'a> Models<'a> {
 
     /// The form of a part that was met, in any colour.
     pub fn form(&self, life: usize, part: &Part) -> Option<&Model> {
-        self.plain.get(&(self.whose(life, part), form_of(part)))
+        self.plain.get(&(self.whose(life, part), self.form_of(life, part)))
     }
 
     /// How far a part that was met reaches from its base, in the largest of its sizes.
     pub fn reach(&self, life: usize, part: &Part) -> f32 {
-        self.reaches.get(&(self.whose(life, part), form_of(part))).copied().unwrap_or(f32::INFINITY)
+        self.reaches.get(&(self.whose(life, part), self.form_of(life, part))).copied().unwrap_or(f32::INFINITY)
     }
 
     /// The life whose forms a part has: what is a polygon, a surface or an internode has its own life's.
@@ -82,7 +82,17 @@ impl<'a> Models<'a> {
     }
 
     fn key(&self, life: usize, part: &Part, tint: [f32; 3]) -> Key {
-        (self.whose(life, part), part.kind as u8, form_of(part), [stepped(tint), part.stalk])
+        (self.whose(life, part), part.kind as u8, self.form_of(life, part), [stepped(tint), part.stalk])
+    }
+
+    /// The form of a part; from near it is one whatever its fullness, unless that is in its mesh.
+    fn form_of(&self, life: usize, part: &Part) -> [u32; 3] {
+        let of = form_of(part);
+        let mesh = |form| self.lives[life].nears.as_ref()?.mesh(form);
+        match part.what {
+            What::Near(form) if mesh(form).is_some_and(|mesh| !mesh.is_in_parts()) => [of[0], of[1], 0],
+            _ => of,
+        }
     }
 
     fn make(&self, life: usize, part: &Part, colours: [[u8; 3]; 2]) -> Model {

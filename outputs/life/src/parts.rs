@@ -138,9 +138,11 @@ impl Parts {
         let same = match state.what {
             What::Organ(form) => {
                 let same = form == plant.organs.form[organ.index()] && plant.outline_of(organ).is_empty();
-                same && scene.near_form(organ).is_none()
+                same && scene.near(organ).is_none()
             }
-            What::Near(form) => plant.outline_of(organ).is_empty() && scene.near_form(organ) == Some(form),
+            What::Near(form) => {
+                plant.outline_of(organ).is_empty() && scene.near(organ).map(|(own, _)| own) == Some(form)
+            }
             What::Outlined(outline) => plant.outline_of(organ) == self.outlines[outline as usize],
             What::Surface(number) => surface() == Some(self.surfaces[number as usize].0),
             What::Internode => false,

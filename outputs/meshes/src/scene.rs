@@ -76,8 +76,7 @@ impl<'a> Scene<'a> {
         let wood = Wood::of(&stems, options);
         let paints = Paints::of(&plant.habit);
         let columns = Columns::of(plant, stems.detail.as_ref(), options.swings.as_ref(), options.attributes);
-        let nears = (options.detail > 0).then(|| options.nears.of(paints));
-        let options = options.clone();
+        let (nears, options) = ((options.detail > 0).then(|| options.nears.of(paints)), options.clone());
         let outlines = Outlines::of(plant);
         let mut scene = Self { plant, age, options, paints, stems, wood, outlines, crown: None, columns, nears };
         scene.crown = scene.options.crown_normals.then(|| scene.crown()).flatten();
@@ -228,7 +227,7 @@ impl<'a> Scene<'a> {
             OrganForm::Shape(shape) => {
                 let Placement { base, heading, up, size, fullness } = self.placement(organ, shape);
                 let size = [size[0], size[1], 0.0];
-                let own = self.near_form(organ).map_or(OwnForm::None, OwnForm::Near);
+                let own = self.near(organ).map_or(OwnForm::None, |(form, _)| OwnForm::Near(form));
                 DrawnOrgan { base, heading, up, size, fullness, colours, own }
             }
             OrganForm::Outline(..) => {
@@ -251,14 +250,9 @@ impl<'a> Scene<'a> {
         self.nears.as_ref()
     }
 
-    /// Which form from near an organ has; `None` where it has that of detail 0, an outline or a surface of its own.
+    /// The form from near of an organ, and which it is; `None` where it has that of detail 0 or a mesh of the user's.
     #[inline]
-    pub fn near_form(&self, organ: OrganId) -> Option<NearForm> {
-        Some(self.near(organ)?.0)
-    }
-
-    #[inline]
-    fn near(&self, organ: OrganId) -> Option<(NearForm, &FormMesh)> {
+    pub fn near(&self, organ: OrganId) -> Option<(NearForm, &FormMesh)> {
         self.nears.as_ref()?.form((self.plant, self.age), organ, &self.options)
     }
 

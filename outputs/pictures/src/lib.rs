@@ -33,8 +33,6 @@ mod survey;
 #[cfg(test)]
 mod tests;
 #[cfg(test)]
-mod tests_facet;
-#[cfg(test)]
 mod tests_framing;
 mod tone;
 mod value_colours;

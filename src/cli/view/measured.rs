@@ -1,5 +1,5 @@
-//! `view` of a run of measured plants: one of them, some side by side, or all in their places, at the ages at which they
-//! were measured.
+//! `view` of a run of measured plants: one of them, some side by side, or all in their places, at the ages at which
+//! they were measured.
 //!
 //! Absent: the page of them (`phytomer::run::measured`).
 
