@@ -140,6 +140,7 @@ fn write_page(name: &str, path: &Path) -> Result<u64> {
         ages: (0..=regrowth.trial().last_age_of(0)).map(Moment::from).collect(),
         tolerance: None,
         mechanics: sitter.scenario.output.mechanics,
+        detail: 0,
     };
     let doing = || format!("cannot write {}", path.display());
     fs::create_dir_all(path.parent().unwrap_or(Path::new("."))).with_context(doing)?;

@@ -19,6 +19,7 @@ mod in_memory;
 mod in_turn;
 pub mod keying;
 pub mod living;
+pub mod measured;
 mod moving;
 pub mod picturing;
 mod plan;

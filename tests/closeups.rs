@@ -134,6 +134,52 @@ fn a_mesh_from_near_has_more_triangles_and_the_same_components() {
     assert!(mesh("1") > plain && mesh("3") > 4 * mesh("1"));
 }
 
+/// The bytes of a file that `mesh` makes of a plant.
+fn meshed(folder: &std::path::Path, words: &[&str], out: &str) -> usize {
+    run(folder, &[&["mesh"], words, &["--out", out]].concat()).ending(0);
+    fs::metadata(folder.join(out)).expect("a mesh").len() as usize
+}
+
+/// Instances of one age, and a life, have one model for each form at its detail: what a file has more than at detail 0
+/// does not grow with the number of leaves, as it does where they are merged.
+#[test]
+fn instances_from_near_cost_their_models_alone() {
+    let folder = tempdir().expect("a temporary folder");
+    for (out, more) in [("s.usdc", &[][..]), ("s.glb", &["--leaves", "instances"])] {
+        let at = |age: &str, detail: &str| {
+            meshed(folder.path(), &[&["coffee", "--age", age, "--detail", detail], more].concat(), out)
+        };
+        let added = at("24", "2") - at("24", "0");
+        let merged = |detail: &str| {
+            meshed(folder.path(), &["coffee", "--age", "24", "--leaves", "merged", "--detail", detail], out)
+        };
+        let all = merged("2") - merged("0");
+        assert!(added > 1000 && 2 * added < all, "{out}: {added} of {all}");
+    }
+    let life = |detail: &str, out: &str| {
+        meshed(folder.path(), &["coffee", "--ages", "4..16/4", "--detail", detail, "--tolerance", "2mm"], out)
+    };
+    let lives = ["0", "2"].map(|detail| life(detail, "l.usdc"));
+    assert!(lives[1] > lives[0] && lives[1] < lives[0] + 200_000, "{lives:?}");
+    assert!(life("1", "l.glb") > life("0", "l.glb"));
+}
+
+#[test]
+fn a_page_from_near_has_the_forms_of_its_detail() {
+    let folder = tempdir().expect("a temporary folder");
+    let page = |detail: &str, threads: &str| {
+        let words = ["view", "monocarp", "--ages", "10..34/8", "--detail", detail, "--out", "p.html"];
+        let done = phytomer_program(folder.path(), &words).env("RAYON_NUM_THREADS", threads).output().unwrap();
+        let told = said(done).ending(0).stdout;
+        assert_eq!(told.contains(&format!(", detail {detail}, ")), detail != "0", "{told}");
+        fs::read(folder.path().join("p.html")).expect("a page")
+    };
+    let pages = ["0", "1", "3"].map(|detail| page(detail, "2"));
+    assert!(pages[0].len() < pages[1].len() && pages[1].len() < pages[2].len());
+    assert!(pages[2].len() < pages[0].len() + 1_000_000, "{} {}", pages[0].len(), pages[2].len());
+    assert!(page("3", "1") == pages[2], "threads");
+}
+
 #[test]
 fn what_cannot_be_shown_from_near_is_refused() {
     let folder = tempdir().expect("a temporary folder");
@@ -143,7 +189,10 @@ fn what_cannot_be_shown_from_near_is_refused() {
         (vec!["picture", "monocarp", "--age", "10", "--focus", "fruit"], "has no fruit at age 10"),
         (vec!["picture", "coffee", "--age", "4", "--focus", "99999999"], "has no component 99999999 at age 4"),
         (vec!["picture", "coffee", "--ages", "4,8", "--focus", "leaf"], "this is for one plant at one age"),
-        (vec!["mesh", "coffee", "--ages", "1..8/4", "--detail", "1", "--out", "x.usdc"], "instances of forms"),
+        (vec!["mesh", "coffee", "--age", "4", "--detail", "9", "--out", "x.ply"], "9 is not in 0..=3"),
+        (vec!["mesh", "coffee", "--age", "4", "--detail=-1", "--out", "x.ply"], "-1 is not in 0..=3"),
+        (vec!["view", "coffee", "--detail", "9", "--out", "x.html"], "9 is not in 0..=3"),
+        (vec!["animate", "coffee", "--detail", "9", "--out", "x.webp"], "9 is not in 0..=3"),
     ] {
         let out = if words.contains(&"--out") { &[][..] } else { &["--out", "x.png"] };
         let told = run(folder.path(), &[&words[..], out].concat()).ending(2);
@@ -165,6 +214,9 @@ fn settings_that_are_not_sound_are_faults() {
         ("{ blade = { margin = \"wavy\" } }", "toothed"),
         ("{ capitulum = { florets = 5000 } }", "from 20 to 1600"),
         ("{ flower = { petals = 1 } }", "from 2 to 40"),
+        ("{ flower = { petal = { fold_deg = 85, arch_deg = -300 } } }", "the blade crosses itself"),
+        ("{ blade = { margin = \"palmate\", divisions = 9, spread_deg = 10 } }", "from 30 to 350"),
+        ("{ blade = { tears = -0.5 } }", "from 0 to 1"),
         ("{ blade = { stalks = 1 } }", "stalk"),
     ] {
         fs::write(folder.path().join("a.toml"), leaf(near)).unwrap();

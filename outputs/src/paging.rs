@@ -11,6 +11,7 @@ use crate::tables::{ComponentIndex, Membership, TableError, each_record};
 use phytomer_pages::{Column, Holds, Table};
 use phytomer_sim::Tick;
 use phytomer_sim::plant::{Class, Kind, Plant};
+use std::collections::BTreeMap;
 
 /// The columns that a page does not keep.
 const DERIVED: [&str; 15] = [
@@ -80,6 +81,31 @@ impl Rows {
                 table.turned(number, [*x, *y, *z], [*u, *v, *w]);
             }
         })
+    }
+}
+
+impl Rows {
+    /// Adds rows of a measured plant as its table has them, with all columns of `records` in their order; how
+    /// internodes are turned is what the plant that is drawn has.
+    pub fn show_told<'r>(
+        &self,
+        table: &mut Table,
+        plant: &Plant,
+        rows: impl Iterator<Item = (u32, &'r [f64])>,
+        at: f32,
+    ) {
+        let nodes = plant.nodes.component.iter().zip(0..);
+        let nodes: BTreeMap<u32, usize> = nodes.map(|(component, node)| (*component, node)).collect();
+        let kept = self.places.len() - DIRECTIONS.len();
+        table.begin(at);
+        for (number, values) in rows {
+            let value = |place: &usize| values.get(*place).copied().unwrap_or(f64::NAN);
+            table.row(number, self.places[..kept].iter().map(value));
+            if let Some(node) = nodes.get(&number) {
+                let [heading, up] = [plant.frames.heading[*node], plant.frames.up[*node]].map(|of| of.map(f64::from));
+                table.turned(number, heading, up);
+            }
+        }
     }
 }
 

@@ -44,6 +44,7 @@ pub struct PoseRow {
     pub age: Tick,
     pub axis_id: u32,
     pub rank: u32,
+    /// NaN where nobody measured it.
     pub dir_z: f32,
     /// `None` where the run has no columns of mechanics, or the wood does not bend.
     pub curvature_per_m: Option<f32>,
@@ -235,7 +236,7 @@ fn poses_in(batch: &Batch<'_>, plants: u32, rows: usize, found: &mut Vec<PoseRow
                 age: value(age, i).unwrap_or_default(),
                 axis_id: value(axis, i).unwrap_or_default(),
                 rank: value(rank, i).unwrap_or_default(),
-                dir_z: dir_z.value(i),
+                dir_z: if dir_z.is_valid(i) { dir_z.value(i) } else { f32::NAN },
                 curvature_per_m: curvature.filter(|of| of.is_valid(i)).map(|of| of.value(i)),
             });
         }

@@ -220,6 +220,7 @@ impl Plants {
                 ages,
                 tolerance: None,
                 mechanics: self.again.mechanics,
+                detail: 0,
             };
             let mut bytes = Vec::new();
             view.page(&Filming::default()).map(|page| page.write(&mut bytes).map(|()| bytes))

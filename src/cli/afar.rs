@@ -40,7 +40,7 @@ pub struct Part {
 
 impl Part {
     /// The options that are used, as they are written.
-    fn used(&self) -> impl Iterator<Item = &'static str> {
+    pub fn used(&self) -> impl Iterator<Item = &'static str> {
         let used = [
             ("--levels", self.levels.is_some()),
             ("--quality", self.quality.is_some()),

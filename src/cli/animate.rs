@@ -39,6 +39,7 @@ Examples:
   phytomer animate willow --ages 60 --wind 8 --fps 12 --out wind.webp
   phytomer animate wp/quaking_aspen --ages 1 --wind 5 --gust 3 --loop 6 --out sway.webp
   phytomer animate coffee --ages 12..48 --out frames/
+  phytomer animate monocarp --ages 24..34 --detail 3 --out bloom.webp
   phytomer animate coffee --size 960x720 --out - | mpv -
 
 The ending says the format: .webp (small, lossy), .gif (plays everywhere, 255 colours), .apng (no pixel is lost), .y4m
@@ -98,6 +99,10 @@ pub struct Animate {
     /// shoulder of whoever looks at the first frame if not given.
     #[arg(long, value_name = "AZIMUTH,ELEVATION", allow_negative_numbers = true, value_parser = picture::sun)]
     sun: Option<[f32; 2]>,
+    /// How finely leaves, flowers and fruits are drawn: 0, a few polygons, to 3, for close-ups. An organ that is small
+    /// in the film is drawn with less.
+    #[arg(long, value_name = "0…3", default_value_t = 0, value_parser = clap::value_parser!(u8).range(0..=3))]
+    detail: u8,
     /// Sides of the tube that each internode is drawn as. If not given, wood is drawn along its axes, as round as half
     /// a pixel asks.
     #[arg(long, value_parser = clap::value_parser!(u8).range(3..=64))]
@@ -208,6 +213,7 @@ impl Animate {
             caption: !self.no_caption,
             sun: self.sun.map(|sun| sun.map(f32::to_radians)),
             sides: self.sides,
+            detail: self.detail,
             ..Style::default()
         }
     }

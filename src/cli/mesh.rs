@@ -8,6 +8,7 @@ mod formats;
 mod joints;
 mod keyed;
 mod life;
+mod measured;
 mod rig;
 mod usd;
 
@@ -15,6 +16,7 @@ use super::afar::{self, Part};
 use super::budget::{Asked, Budget, in_words, too_few};
 use super::colouring;
 use super::constants::Constants;
+use super::measured::Measured;
 use super::out;
 use super::regrown::{Breeze, Fall, Regrown};
 use super::span::age;
@@ -55,6 +57,8 @@ Examples:
   phytomer mesh willow --age 60 --joints welded --out sculpture.stl
   phytomer mesh abop/2.8a --age 4 -D lr=1.2 --out tall.ply
   phytomer mesh monocarp --age 34 --detail 3 --out sunflower.glb
+  phytomer mesh monocarp --ages 20..34 --detail 2 --out bloom.usdc
+  phytomer mesh runs/walnut --joints welded --out walnut.stl
   phytomer mesh wp/quaking_aspen --levels 0-1 --out collision.ply
   phytomer mesh wp/quaking_aspen --range 120 --fov 30 --bark 0.5 --out far.glb
   phytomer mesh wp/quaking_aspen --wind 5 --gust 3 --time 0.4 --out swaying.ply
@@ -113,6 +117,10 @@ impl Mesh {
         let format = self.growing.of(Format::of(&self.out)?, self.rig.asked().is_some())?;
         if let (Some(_), false) = (self.rig.asked(), format.holds("rig")) {
             return Err(format.holds_no("rig").into());
+        }
+        if let Some(measured) = Measured::of(&self.name)? {
+            self.dressing.check_format(format, self.plot.is_some(), false)?;
+            return measured::write(&self, &measured, format);
         }
         self.joining.check(self.growing.is_asked() || self.rig.asked().is_some())?;
         colouring::whole("--age", self.age.as_slice(), self.dressing.colour_by.as_ref())?;

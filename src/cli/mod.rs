@@ -26,6 +26,7 @@ mod interrupt;
 mod list;
 mod man;
 mod measure;
+mod measured;
 mod merge;
 mod mesh;
 pub mod named;

@@ -124,8 +124,8 @@ impl Recorded {
         if let Some(measured) = resolved.get("measured") {
             let (shown, file) = (folder.display(), measured["file"].as_str().unwrap_or("a file"));
             let told = format!(
-                "{shown}: its plants were measured ({file}) and none is grown: `describe`, `picture`, `measure`, `query` \
-                 and `fit` work on its tables, and `convert {file}` writes them in other formats"
+                "{shown}: its plants were measured ({file}) and none is grown: `describe`, `picture`, `mesh`, `view`, \
+                 `report`, `measure`, `query` and `fit` work on its tables, and `convert {file}` writes them in other formats"
             );
             return Err(super::Misuse(told).into());
         }

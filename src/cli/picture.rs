@@ -10,10 +10,11 @@ mod measured;
 use super::afar::{self, Part};
 use super::colouring;
 use super::constants::Constants;
+use super::measured::Measured;
 use super::out::{self, Format};
 use super::regrown::{Breeze, Fall, Regrown, finite};
 use super::span::{Span, age, shown, span};
-use super::{Misuse, Verdict, amounts, named};
+use super::{Misuse, Verdict, amounts};
 use anyhow::{Context, Result};
 use clap::builder::PossibleValuesParser;
 use clap::{Args, ValueEnum};
@@ -156,8 +157,8 @@ pub enum From {
 impl Picture {
     pub fn obey(self) -> Result<Verdict> {
         out::check(&self.out, "picture", &FORMATS)?;
-        if let Some(folder) = named::measured_run(&self.name) {
-            return measured::obey(&self, &folder);
+        if let Some(measured) = Measured::of(&self.name)? {
+            return measured::obey(&self, &measured);
         }
         let ages: Vec<Moment> = if self.ages.is_empty() { self.age.into_iter().collect() } else { self.ages.clone() };
         colouring::whole(self.age_option(), &ages, self.colour_by.as_ref())?;

@@ -246,6 +246,11 @@ impl Regrown {
 }
 
 impl Breeze {
+    /// Whether anything is said of a wind.
+    pub fn is_stated(&self) -> bool {
+        self.wind.is_some()
+    }
+
     /// The moving air that is asked for; a calm is none.
     pub fn air(&self) -> Option<Air> {
         let (speed, gust) = (self.wind?, self.gust.unwrap_or(0.0));

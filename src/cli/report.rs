@@ -4,6 +4,7 @@
 
 mod data;
 
+use super::measured::Measured;
 use super::named::{Recorded, run_folder};
 use super::out::{self, Format};
 use super::{Misuse, Verdict, amounts, terminal};
@@ -15,9 +16,10 @@ use phytomer::run::picturing::pictured_plants;
 use phytomer::run::regrowth::Regrowth;
 use phytomer_config::{Species, Trial};
 use phytomer_outputs::Destination;
-use phytomer_outputs::pictures::{Compression, Picture as Style, draw_stands, write_png};
+use phytomer_outputs::pictures::{Compression, Picture as Style, Placed, Stand, draw_stands, write_png};
 use phytomer_reports::{Figure, Picture, page, png, svg, vega_lite};
-use phytomer_sim::GrowthModel;
+use phytomer_sim::plant::Plant;
+use phytomer_sim::{GrowthModel, Tick};
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
 use std::{fs, io};
@@ -73,11 +75,21 @@ pub struct ReportVerb {
     plants: u32,
 }
 
+/// A run, by how its plants came about.
+enum Source {
+    Grown(Box<Recorded>),
+    Measured(Box<Measured>),
+}
+
 impl ReportVerb {
     pub fn obey(self) -> Result<Verdict> {
         out::check(&self.out, "report", &FORMATS)?;
         let folders: Vec<PathBuf> = self.runs.iter().map(|name| folder(name)).collect::<Result<_>>()?;
-        let recorded: Vec<Recorded> = folders.iter().map(|folder| Recorded::of(folder)).collect::<Result<_>>()?;
+        let of = |folder: &PathBuf| match Measured::of(&folder.display().to_string())? {
+            Some(measured) => Ok(Source::Measured(Box::new(measured))),
+            None => Recorded::of(folder).map(|recorded| Source::Grown(Box::new(recorded))),
+        };
+        let recorded: Vec<Source> = folders.iter().map(of).collect::<Result<_>>()?;
         let (field, asked) = match data::read(&self)? {
             Ok(read) => read,
             Err(faults) => {
@@ -88,13 +100,19 @@ impl ReportVerb {
         let file = Destination::create(&self.out)?;
         let mut pictures = Vec::new();
         for (name, recorded) in self.runs.iter().zip(&recorded) {
-            pictures.extend(drawn(name, recorded, self.plants)?);
+            pictures.extend(match recorded {
+                Source::Grown(recorded) => drawn(name, recorded, self.plants)?,
+                Source::Measured(measured) => drawn_as_measured(name, measured, self.plants)?,
+            });
         }
-        let runs = self.runs.iter().zip(&recorded).map(|(name, recorded)| Reported {
-            name: short(name),
-            run: &recorded.run,
-            trial: &recorded.trial,
-            species: recorded.all_species().collect(),
+        let runs = self.runs.iter().zip(&recorded).map(|(name, recorded)| match recorded {
+            Source::Grown(of) => Reported {
+                name: short(name),
+                run: &of.run,
+                trial: Some(&of.trial),
+                species: of.all_species().collect(),
+            },
+            Source::Measured(of) => Reported { name: short(name), run: &of.run, trial: None, species: Vec::new() },
         });
         let runs: Vec<Reported> = runs.collect();
         let names: Vec<&str> = runs.iter().map(|reported| reported.name.as_str()).collect();
@@ -159,6 +177,33 @@ fn drawn(name: &str, recorded: &Recorded, count: u32) -> Result<Option<Picture>>
     let caption = format!("{}: {whom} at age {age} in one scale{of_treatments}.", short(name));
     let words = format!("{whom} of {} side by side at age {age}, in sunshine, with their shadows", of.about.name);
     Ok(Some(Picture { png, caption, words }))
+}
+
+/// The first plants of a run of measured plants that have places, as they were last measured.
+fn drawn_as_measured(name: &str, measured: &Measured, count: u32) -> Result<Option<Picture>> {
+    let age = measured.age(None)?;
+    let plants = measured.plants.at(age);
+    let chosen: Vec<&Plant> = plants.values().take(count as usize).collect();
+    if chosen.is_empty() {
+        return Ok(None);
+    }
+    let stands: Vec<Stand> = chosen.into_iter().map(|plant| stand_of(plant, age)).collect();
+    let size = [(WIDTH * stands.len() as u32).clamp(2 * WIDTH, 4 * WIDTH), HEIGHT];
+    let canvas = draw_stands(&stands, &short(name), &Style { size, ..Style::default() });
+    let mut png = Vec::new();
+    write_png(&canvas, &format!("{}: measured plants", short(name)), Compression::Balanced, &mut png)?;
+    let whom = amounts::of(stands.len() as u64, "plant");
+    let caption = format!("{}: {whom} as measured at {} in one scale.", short(name), measured.caption(age));
+    let words =
+        format!("{whom} of {} side by side as measured at age {age}, in sunshine, with their shadows", short(name));
+    Ok(Some(Picture { png, caption, words }))
+}
+
+/// A measured plant by itself.
+fn stand_of(plant: &Plant, age: Tick) -> Stand<'_> {
+    let (own, seen) = Default::default();
+    let placed = Placed { plant, age, place: [0.0; 3], own, seen };
+    Stand { plants: vec![placed], obstacles: Vec::new(), label: format!("plant {}", plant.id) }
 }
 
 /// Plants of a run, the first of each treatment, then the second of each. Plants are numbered treatment by treatment.

@@ -3,8 +3,11 @@
 //! The plants are grown again as for meshes and films. Absent: growing, which is `run::viewing`'s, and the page, which
 //! is `phytomer_outputs::pages`'.
 
+mod measured;
+
 use super::budget::{length, tolerance};
 use super::constants::Constants;
+use super::measured::Measured;
 use super::out::{self, Format};
 use super::regrown::Regrown;
 use super::span::{Span, shown, span};
@@ -33,6 +36,8 @@ Examples:
   phytomer view coffee --plants 0,1,2 --ages 0..72 --out three.html
   phytomer view coffee --ages 0..96/4 --tolerance 2mm --out small.html
   phytomer view under_a_roof --plot --out plot.html
+  phytomer view monocarp --detail 3 --out sunflower.html
+  phytomer view runs/walnut --out walnut.html     plants that were measured, at the dates at which they were
 
 The page is one file. It opens by a double click and asks for nothing from the network. A link may name an age:
 life.html#age=48. A mouse, touch or the keys turn the plants; the page itself tells its keys.")]
@@ -58,6 +63,10 @@ pub struct View {
     /// not given, half a pixel of a screen that shows the plants whole.
     #[arg(long, value_name = "LENGTH", value_parser = tolerance, allow_hyphen_values = true)]
     tolerance: Option<f32>,
+    /// How finely leaves, flowers and fruits are drawn: 0, a few polygons, to 3, for close-ups. Where a browser would
+    /// have too many triangles to draw it is less, which is told.
+    #[arg(long, value_name = "0…3", default_value_t = 0, value_parser = clap::value_parser!(u8).range(0..=3))]
+    detail: u8,
     /// The file to write, `-` for stdout. A link stays, and its target is replaced; a pipe or a device is written
     /// through.
     #[arg(long, value_name = "FILE.html")]
@@ -74,6 +83,9 @@ impl View {
         out::check(&self.out, "view", &FORMATS)?;
         if self.plants.len() > MOST_PLANTS {
             return Err(Misuse(format!("--plants: one page has at most {MOST_PLANTS} plants side by side")).into());
+        }
+        if let Some(measured) = Measured::of(&self.name)? {
+            return measured::obey(&self, &measured);
         }
         let asked: Vec<Tick> = self.ages.iter().map(Span::until).collect();
         match Regrown::find(&self.name, &self.constants, &asked)? {
@@ -95,6 +107,7 @@ impl View {
             ages,
             tolerance: self.tolerance,
             mechanics: regrown.scenario.output.mechanics,
+            detail: self.detail,
         };
         let mut file = Destination::create(&self.out)?;
         let filming = Arc::new(Filming::default());
@@ -108,12 +121,22 @@ impl View {
             page => page?,
         };
         let (plants, within) = (page.subjects.len(), length(f64::from(page.tolerance)));
+        let detail = self.detail_in_words(page.detail);
         page.write(&mut file).with_context(|| format!("cannot write {}", self.out.display()))?;
         let bytes = amounts::bytes(file.finish()? as f64);
         let plants = amounts::of(plants as u64, "plant");
         let ages = amounts::of(view.ages.len() as u64, "age");
-        out::tell(&self.out, &format!("{plants} at {ages}, within {within}, {bytes}"))?;
+        out::tell(&self.out, &format!("{plants} at {ages}, within {within}{detail}, {bytes}"))?;
         Ok(Verdict::Done)
+    }
+
+    /// The detail of a page, and why it is not the one that is asked for.
+    fn detail_in_words(&self, detail: u8) -> String {
+        match (self.detail, detail) {
+            (0, _) => String::new(),
+            (asked, detail) if asked == detail => format!(", detail {detail}"),
+            (asked, detail) => format!(", detail {detail} (at detail {asked} it would have too many triangles)"),
+        }
     }
 
     /// What is shown, and its ages.

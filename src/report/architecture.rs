@@ -15,27 +15,32 @@ const TABLES: [(&str, Option<&str>, &str); 3] = [
     ("branching", None, "Axes for one of the order before, and Strahler's ratio"),
 ];
 
+/// The measures of which measured plants have none: no file tells when what is not in it any more has died.
+const OF_GROWTH: [&str; 2] = ["axis-life", "activity"];
+
 /// The figures and tables of all runs.
 pub fn parts(runs: &[Reported]) -> Vec<Part> {
     let lives = gathered(runs, "axis-life", Some("order"), |sheet, name| lines(sheet, name, Mark::Steps, of_life));
     let profile =
         gathered(runs, "crown-profile", Some("treatment"), |sheet, name| lines(sheet, name, Mark::Line, of_layer));
-    let mut parts = vec![
+    let lived = || {
         figure(
             "axis-life",
             "Axes that live by their dimension",
             "Kaplan–Meier estimate of axes with all that they bear, by order; the numbers have intervals of plants.",
             [Axis::of("dimension", "ticks since the first internode"), Axis::of("share of axes alive", "")],
             lives.0,
-        ),
-        figure(
-            "crown-profile",
-            "Leaf area by height at the last recorded age",
-            "The mean leaf area of a plant in layers of half a metre; the numbers have intervals of plants.",
-            [Axis::of("leaf area in the layer", "m²"), Axis::of("middle of the layer above the seed", "m")],
-            profile.0,
-        ),
-    ];
+        )
+    };
+    let mut parts = Vec::new();
+    parts.extend(runs.iter().any(|reported| reported.trial.is_some()).then(lived));
+    parts.push(figure(
+        "crown-profile",
+        "Leaf area by height at the last recorded age",
+        "The mean leaf area of a plant in layers of half a metre; the numbers have intervals of plants.",
+        [Axis::of("leaf area in the layer", "m²"), Axis::of("middle of the layer above the seed", "m")],
+        profile.0,
+    ));
     parts.extend(lives.1.into_iter().chain(profile.1).map(Part::Text));
     for (name, by, words) in TABLES {
         for reported in runs {
@@ -62,6 +67,9 @@ fn figure(id: &str, title: &str, caption: &str, [x, y]: [Axis; 2], series: Vec<S
 /// A measure of a run, or why there is none.
 fn found(reported: &Reported, name: &str, by: Option<&str>) -> Result<Measured, String> {
     let lack = |reason: String| format!("{}: `{name}` is not told: {reason}.", reported.name);
+    if reported.trial.is_none() && OF_GROWTH.contains(&name) {
+        return Err(lack("it is of plants that are followed while they grow, and these were measured".to_owned()));
+    }
     let card =
         MEASURES.iter().find(|card| card.name == name).ok_or_else(|| lack("there is no such measure".to_owned()))?;
     let asked = Asked { by: by.map(str::to_owned), level: LEVEL, ..Asked::default() };

@@ -7,7 +7,8 @@ use phytomer_reports::{Axis, Cell, Chart, Figure, Mark, Part, Plotted, Point, Se
 
 /// The figure of survival, and a table of the lives of each group.
 pub fn parts(grown: &Grown) -> Vec<Part> {
-    let series = grown.groups.iter().filter_map(|group| {
+    let groups = || grown.groups.iter().filter(|group| group.grows);
+    let series = groups().filter_map(|group| {
         let curve = kaplan_meier(&group.lives, LEVEL).ok()?;
         let start = Point { interval: Some([1.0, 1.0]), ..Point::at(0.0, 1.0) };
         let steps = curve.steps.iter().map(|step| Point {
@@ -39,7 +40,7 @@ pub fn parts(grown: &Grown) -> Vec<Part> {
         }),
     };
     let mut parts = vec![Part::Figure(figure), Part::Table("Lives of plants".to_owned(), lives(grown))];
-    let groups: Vec<&Lives> = grown.groups.iter().map(|group| &group.lives).collect();
+    let groups: Vec<&Lives> = groups().map(|group| &group.lives).collect();
     if groups.len() > 1 {
         parts.push(Part::Text(match log_rank(&groups) {
             Ok(test) => {
@@ -62,7 +63,7 @@ fn lives(grown: &Grown) -> Table {
         let [plants, died] = counts;
         vec![Cell::words(group.name.as_str()), plants, died, whole(median), low, high]
     };
-    Table { columns, rows: grown.groups.iter().map(row).collect() }
+    Table { columns, rows: grown.groups.iter().filter(|group| group.grows).map(row).collect() }
 }
 
 /// A probability in words: "p = 0.0312", "p < 0.0001".

@@ -8,11 +8,16 @@ use phytomer_reports::{Axis, Chart, Figure, Mark, Part, Plotted, Point, Series};
 
 /// A figure a measure.
 pub fn parts(grown: &Grown, field: Option<&Field>) -> Vec<Part> {
-    MEASURES
-        .into_iter()
-        .enumerate()
-        .map(|(place, measure)| Part::Figure(figure(grown, field, place, measure)))
-        .collect()
+    let part = |(place, measure): (usize, Measure)| {
+        let figure = figure(grown, field, place, measure);
+        let told =
+            matches!(&figure.plotted, Plotted::Chart(chart) if chart.series.iter().any(|of| !of.points.is_empty()));
+        if told || grown.groups.iter().any(|group| group.grows) {
+            return Part::Figure(figure);
+        }
+        Part::Text(format!("{}: the file of the measured plants does not tell it.", figure.title))
+    };
+    MEASURES.into_iter().enumerate().map(part).collect()
 }
 
 fn figure(grown: &Grown, field: Option<&Field>, place: usize, measure: Measure) -> Figure {

@@ -31,9 +31,9 @@ pub struct Reported<'a> {
     pub name: String,
     /// The run folder.
     pub run: &'a Run,
-    /// Its treatments and plots.
-    pub trial: &'a Trial,
-    /// Its species.
+    /// Its treatments and plots; `None` where its plants were measured.
+    pub trial: Option<&'a Trial>,
+    /// Its species; none where its plants were measured.
     pub species: Vec<&'a Species>,
 }
 
@@ -51,10 +51,14 @@ pub fn report(
     let mut sections = vec![
         section("Methods", vec![Part::Text(provenance::methods(runs, &grown))]),
         section("Growth", growth::parts(&grown, field)),
-        section("Life and death", fates::parts(&grown)),
+    ];
+    // Whoever measures plants does not tell when those died that are not in the file.
+    let some_grow = runs.iter().any(|reported| reported.trial.is_some());
+    sections.extend(some_grow.then(|| section("Life and death", fates::parts(&grown))));
+    sections.extend([
         section("Architecture", architecture::parts(runs)),
         section("Distributions", laws::parts(runs, asked)),
-    ];
+    ]);
     let compared = contrasts::parts(&grown);
     sections.extend((!compared.is_empty()).then(|| section("Treatments", compared)));
     sections.extend(field.map(|field| section("Measured plants", comparison::parts(&grown, field))));

@@ -40,6 +40,9 @@ pub const MEASURES: [Measure; 5] = [
     Measure { column: "internodes", title: "living internodes", unit: "", of: Of::Internodes },
 ];
 
+/// The treatment of measured plants, as their tables have it.
+const MEASURED: &str = "measured";
+
 /// One value a measure.
 pub type Values = [Option<f64>; MEASURES.len()];
 
@@ -50,6 +53,8 @@ pub struct Group {
     pub name: String,
     /// The run, as an index into those that are reported.
     pub run: usize,
+    /// Whether its plants grow; else they were measured.
+    pub grows: bool,
     /// How many plants were recorded.
     pub plants: u64,
     /// By age the moments of each measure over the living plants.
@@ -100,7 +105,10 @@ impl Grown {
         let rows = reported.run.summary()?;
         let last_age = rows.iter().map(|row| row.age).max().unwrap_or(0);
         self.last_age = self.last_age.max(last_age);
-        let treatments = reported.trial.treatments();
+        let treatments: Vec<&str> = match reported.trial {
+            Some(trial) => trial.treatments().iter().map(|treatment| treatment.name.as_str()).collect(),
+            None => vec![MEASURED],
+        };
         let name = |treatment: &str| match (several, treatments.len() > 1) {
             (false, true) => treatment.to_owned(),
             (true, true) => format!("{}: {treatment}", reported.name),
@@ -108,8 +116,9 @@ impl Grown {
         };
         let first = self.groups.len();
         self.groups.extend(treatments.iter().map(|treatment| Group {
-            name: name(&treatment.name),
+            name: name(treatment),
             run: place,
+            grows: reported.trial.is_some(),
             plants: 0,
             ages: BTreeMap::new(),
             lives: Lives::default(),
@@ -117,15 +126,14 @@ impl Grown {
         }));
         let mut latest: BTreeMap<u32, (u32, Option<u32>)> = BTreeMap::new();
         for row in &rows {
-            let plant = reported.trial.plant(row.plant_id);
-            let group = &mut self.groups[first + plant.treatment];
+            let (treatment, key) = of_plant(reported, row.plant_id);
             if row.alive {
-                group.measure(row, (row.age == last_age).then_some((plant.replicate, plant.number)));
+                self.groups[first + treatment].measure(row, (row.age == last_age).then_some(key));
             }
             latest.insert(row.plant_id, (row.age, row.death_age));
         }
         for (plant, (age, death)) in latest {
-            let group = &mut self.groups[first + reported.trial.plant(plant).treatment];
+            let group = &mut self.groups[first + of_plant(reported, plant).0];
             // A plant that lives at the end of the run, or whose plot ended at a limit, is known to its last row.
             let (ticks, fate) = death.map_or((age, Fate::Censored), |death| (death, Fate::Ended(0)));
             group.lives.add(plant, ticks, fate);
@@ -135,9 +143,19 @@ impl Grown {
     }
 }
 
+/// The treatment of a plant, and its replicate and number; measured plants have their numbers alone.
+fn of_plant(reported: &Reported, plant: u32) -> (usize, (u32, u32)) {
+    match reported.trial.map(|trial| trial.plant(plant)) {
+        Some(of) => (of.treatment, (of.replicate, of.number)),
+        None => (0, (0, plant)),
+    }
+}
+
 impl Group {
     fn measure(&mut self, row: &SummaryRow, at_last: Option<(u32, u32)>) {
-        let values = MEASURES.map(|measure| measure.of(row));
+        // Of measured plants `summary` has no area and no volume where none was measured, which are read as 0.
+        let is_told = |value: &f64| self.grows || *value > 0.0;
+        let values = MEASURES.map(|measure| measure.of(row).filter(is_told));
         let moments = self.ages.entry(row.age).or_default();
         for (moments, value) in moments.iter_mut().zip(values) {
             value.into_iter().for_each(|value| moments.add(value));
@@ -148,9 +166,18 @@ impl Group {
     }
 }
 
-/// "ticks of one month"; of several runs with other ticks, "ticks".
+/// "ticks of one month"; of several runs with other ticks, "ticks". Ages of measured plants are days where their file
+/// has dates.
 fn tick_in_words(runs: &[Reported]) -> String {
+    let dated = |reported: &Reported| {
+        let dates = &reported.run.json()["resolved_scenario"]["measured"]["dates"];
+        dates.as_array().is_some_and(|dates| !dates.is_empty())
+    };
+    if runs.iter().all(dated) {
+        return "days since the first date".to_owned();
+    }
     let mut ticks = runs.iter().flat_map(|reported| &reported.species).map(|species| species.about.tick.as_str());
-    let first = ticks.next().unwrap_or("ticks");
+    let measured = runs.iter().any(|reported| reported.trial.is_none());
+    let Some(first) = ticks.next().filter(|_| !measured) else { return "ticks".to_owned() };
     if ticks.all(|tick| tick == first) { format!("ticks of {first}") } else { "ticks".to_owned() }
 }

@@ -30,7 +30,8 @@ pub fn methods(runs: &[Reported], grown: &Grown) -> String {
 }
 
 fn of_run(reported: &Reported) -> String {
-    let (json, trial) = (reported.run.json(), reported.trial);
+    let json = reported.run.json();
+    let Some(trial) = reported.trial else { return of_measured(reported) };
     let mut species: Vec<String> = Vec::new();
     for one in &reported.species {
         let latin = one.about.scientific_name.as_deref().map(|latin| format!(" ({latin})")).unwrap_or_default();
@@ -55,6 +56,35 @@ fn of_run(reported: &Reported) -> String {
     )
 }
 
+/// The sentence for a run of measured plants.
+fn of_measured(reported: &Reported) -> String {
+    let json = reported.run.json();
+    let told = &json["resolved_scenario"]["measured"];
+    let count = |key: &str| told[key].as_u64().unwrap_or_default();
+    let dates: Vec<&str> = told["dates"].as_array().into_iter().flatten().filter_map(Value::as_str).collect();
+    let when = match dates.as_slice() {
+        [] => String::new(),
+        [only] => format!(" on {only}"),
+        [first, .., last] => format!(" on {} dates from {first} to {last}", dates.len()),
+    };
+    let without = match count("plants_without_places") {
+        0 => String::new(),
+        without => format!(" Of {without} the file tells no places, so that they cannot be drawn."),
+    };
+    let plants = count("plants");
+    let plants = if plants == 1 { "1 plant".to_owned() } else { format!("{plants} plants") };
+    let was = if plants == "1 plant" { "was" } else { "were" };
+    format!(
+        "{plants} of {} {was} measured{when}: the {} file {} was read with phytomer {} ({}). Values that it does not tell are \
+         left out.{without}",
+        reported.name,
+        words(told, "format"),
+        words(told, "file"),
+        words(json, "version"),
+        words(json, "git_hash"),
+    )
+}
+
 /// What each run folder says of itself.
 pub fn parts(runs: &[Reported]) -> Vec<Part> {
     let columns = ["run", "what", "value"].map(str::to_owned).into();
@@ -68,8 +98,10 @@ pub fn parts(runs: &[Reported]) -> Vec<Part> {
         }
         let inputs = json["inputs"].as_array().map(Vec::as_slice).unwrap_or_default();
         rows.extend(inputs.iter().map(|input| (format!("input {}", words(input, "path")), words(input, "sha256"))));
-        let overgrown = json["overgrown"].as_array().map_or(0, Vec::len);
-        rows.push(("plots that ended at a limit".to_owned(), overgrown.to_string()));
+        if reported.trial.is_some() {
+            let overgrown = json["overgrown"].as_array().map_or(0, Vec::len);
+            rows.push(("plots that ended at a limit".to_owned(), overgrown.to_string()));
+        }
         rows.into_iter().map(|(what, value)| [reported.name.clone(), what, value].map(Cell::Text).into())
     });
     vec![Part::Table("What the run folders say".to_owned(), Table { columns, rows: rows.collect() })]

@@ -21,6 +21,8 @@ pub struct Keying {
     pub tolerance: Tolerance,
     /// How long the animation is, seconds.
     pub seconds: f64,
+    /// How finely organs are drawn.
+    pub detail: u8,
 }
 
 /// Grows a plant or a plot and shows it at the keys; `forms` are those of its own that each species names.
@@ -29,11 +31,11 @@ pub struct Keying {
 /// Those of growing.
 pub fn keyed(regrowth: &Regrowth, whose: Whose, keying: &Keying, forms: &[Arc<OwnForms>]) -> Result<Growth, RunError> {
     let count = keying.ages.len();
-    let options = |species: usize| {
-        let own = forms.get(species).cloned().unwrap_or_default();
-        MeshOptions { own, ..MeshOptions::default() }
-    };
-    let maker = |species: usize| KeyMaker::new(keying.tolerance, &options(species), count);
+    let of =
+        |own: &Arc<OwnForms>| MeshOptions { own: Arc::clone(own), detail: keying.detail, ..MeshOptions::default() };
+    let options: Vec<MeshOptions> = forms.iter().map(of).collect();
+    let maker =
+        |species: usize| KeyMaker::new(keying.tolerance, &options.get(species).cloned().unwrap_or_default(), count);
     let (bodies, name, origin) = match whose {
         Whose::Plant(plant) => {
             let (body, place) = plant_keyed(regrowth, plant, &keying.ages, &maker)?;

@@ -1,8 +1,10 @@
 //! A page of the whole life of plants: each is grown once more and shown age by age, as lines with keyframes and as the
 //! rows of `records`.
 //!
-//! Where no tolerance is given the plants are grown twice: first at a few ages, to find how large they become; the
-//! tolerance is then half a pixel of a screen that shows them whole. Memory holds what changes in a life, not its ages.
+//! Where no tolerance is given, or a detail above 0, the plants are grown twice: first at a few ages, to find how large
+//! they become and how many triangles their organs have. The tolerance is then half a pixel of a screen that shows them
+//! whole, and the detail the largest whose triangles a browser still draws as fast as it is turned. Memory holds what
+//! changes in a life, not its ages.
 //! Absent: the page itself, which is `phytomer_pages`'.
 
 use super::RunError;
@@ -12,8 +14,8 @@ use super::filming::Filming;
 use super::picturing::obstacles_of;
 use super::regrowth::{Regrowth, Standing, Whose};
 use phytomer_config::Species;
-use phytomer_outputs::life::{Maker, Nearness};
-use phytomer_outputs::meshes::{MeshOptions, OwnForms};
+use phytomer_outputs::life::{Maker, Nearness, organs_alone};
+use phytomer_outputs::meshes::{MOST_DETAIL, MeshOptions, OwnForms, Scene};
 use phytomer_outputs::pages::{Column, OF_A_LIFE, Page, Subject, Table};
 use phytomer_outputs::paging::Rows;
 use phytomer_outputs::tables::Membership;
@@ -25,16 +27,18 @@ use std::sync::Arc;
 
 /// The largest extent of the plants in tolerances, where none is given: two to a pixel.
 const PIXELS: f32 = 2000.0;
-/// The ages that are looked at for that extent.
+/// The ages that are looked at for that extent and for the triangles.
 const LOOKS: usize = 4;
 /// The share of its radius by which the radius of wood may be off.
-const OF_A_RADIUS: f32 = 0.25;
+pub(super) const OF_A_RADIUS: f32 = 0.25;
+/// The most triangles that organs have at any of these ages.
+const MOST_TRIANGLES: u64 = 2_000_000;
 /// The tolerance of plants of which nothing is seen, metres.
 const OF_NOTHING: f32 = 1e-3;
 /// The sides of tubes in a form of the page; the page chooses those of its wood itself.
-const SIDES: u32 = 8;
+pub(super) const SIDES: u32 = 8;
 /// The room between plants side by side, as a share of the wider.
-const ROOM: f32 = 0.25;
+pub(super) const ROOM: f32 = 0.25;
 
 /// What a page shows, and how.
 #[derive(Clone)]
@@ -53,6 +57,15 @@ pub struct View<'a> {
     pub tolerance: Option<f32>,
     /// Whether the columns of mechanics are kept.
     pub mechanics: bool,
+    /// How finely organs are drawn at most.
+    pub detail: u8,
+}
+
+/// How large plants are at some ages, and how many triangles their organs have at each detail, at most.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Look {
+    reach: f32,
+    triangles: [u64; MOST_DETAIL as usize + 1],
 }
 
 /// What is done with what stands at an age.
@@ -73,12 +86,13 @@ impl View<'_> {
     /// # Errors
     /// Those of growing; [`RunError::Stopped`].
     pub fn page(&self, filming: &Filming) -> Result<Page, RunError> {
-        let looks = if self.tolerance.is_some() { 0 } else { LOOKS };
+        let looks = if self.tolerance.is_some() && self.detail == 0 { 0 } else { LOOKS };
         filming.begin((self.whose.len() * (looks + self.ages.len())) as u32);
-        let tolerance = match self.tolerance {
-            Some(tolerance) => tolerance,
-            None => self.usual_tolerance(filming)?,
-        };
+        let options = self.options();
+        let look = if looks > 0 { self.look(&options, filming)? } else { Look::default() };
+        let tolerance = self.tolerance.unwrap_or_else(|| tolerance_of(look.reach));
+        let detail = look.detail(self.detail);
+        let options: Vec<MeshOptions> = options.into_iter().map(|options| MeshOptions { detail, ..options }).collect();
         let mut rows = Rows::new(self.mechanics);
         let mut events: BTreeMap<(Moment, &'static str), u64> = BTreeMap::new();
         let mut subjects: Vec<Subject> = Vec::new();
@@ -87,7 +101,8 @@ impl View<'_> {
             self.show(*whose, &self.ages, filming, &mut |at, standing| {
                 let tick = at.tick();
                 for one in standing {
-                    let grown = growing.entry(one.plant.id).or_insert_with(|| self.sow(tick, one, tolerance, &rows));
+                    let sow = || self.sow((tick, one), tolerance, &rows, &options);
+                    let grown = growing.entry(one.plant.id).or_insert_with(sow);
                     grown.maker.show(&one.plant, one.age);
                     if at.share().is_none() {
                         let of = self.membership(&one.plant, grown);
@@ -100,9 +115,9 @@ impl View<'_> {
                 }
                 Ok(())
             })?;
-            self.place(*whose, growing, &mut subjects);
+            self.place(*whose, growing, &options, &mut subjects);
         }
-        Ok(self.bound(subjects, rows.columns().to_vec(), tolerance, &events))
+        Ok(Page { detail, ..self.bound(subjects, rows.columns().to_vec(), tolerance, &events) })
     }
 
     /// Shows what stands at some ages, until it is told to stop.
@@ -115,29 +130,27 @@ impl View<'_> {
         })
     }
 
-    /// Half a pixel of a screen that shows the largest extent of the plants.
-    fn usual_tolerance(&self, filming: &Filming) -> Result<f32, RunError> {
+    /// Looks at the plants at some ages: all of those of a page at once, since they are side by side.
+    fn look(&self, options: &[MeshOptions], filming: &Filming) -> Result<Look, RunError> {
         let looks = (1..=LOOKS).filter_map(|look| self.ages.get((self.ages.len() * look / LOOKS).saturating_sub(1)));
         let looks: BTreeSet<Moment> = looks.copied().collect();
         let looks: Vec<Moment> = looks.into_iter().collect();
-        let mut most = 0.0_f32;
+        let mut at: BTreeMap<Moment, Look> = BTreeMap::new();
         for whose in &self.whose {
-            self.show(*whose, &looks, filming, &mut |_, standing| {
-                let reach = standing.iter().map(|one| reach_of(&one.plant, one.age)).fold(0.0, f32::max);
-                most = most.max(reach);
+            self.show(*whose, &looks, filming, &mut |age, standing| {
+                let look = at.entry(age).or_default();
+                standing.iter().for_each(|one| look.add((&one.plant, one.age), &options[one.species], self.detail));
                 Ok(())
             })?;
         }
-        // A bare number of micrometres, so that it can be told and asked for again.
-        let micrometres = (most / PIXELS * 1e6).round().max(10.0);
-        Ok(if most > 0.0 { micrometres / 1e6 } else { OF_NOTHING })
+        Ok(at.into_values().fold(Look::default(), Look::most))
     }
 
-    fn sow(&self, tick: Tick, one: &Standing, tolerance: f32, rows: &Rows) -> Growing {
+    fn sow(&self, (tick, one): (Tick, &Standing), tolerance: f32, rows: &Rows, options: &[MeshOptions]) -> Growing {
         Growing {
             maker: Maker::new(
                 Nearness { share: OF_A_RADIUS, ..Nearness::of(tolerance * OF_A_LIFE) },
-                &self.options(one.species),
+                &options[one.species],
             ),
             table: Table::new(rows.columns()),
             species: one.species,
@@ -146,8 +159,11 @@ impl View<'_> {
         }
     }
 
-    fn options(&self, species: usize) -> MeshOptions {
-        options_of(SIDES, &self.forms.get(species).cloned().unwrap_or_default())
+    /// The options of each species.
+    fn options(&self) -> Vec<MeshOptions> {
+        (0..self.species.len())
+            .map(|species| options_of(SIDES, &self.forms.get(species).cloned().unwrap_or_default()))
+            .collect()
     }
 
     fn membership(&self, plant: &Plant, grown: &Growing) -> Membership {
@@ -167,7 +183,13 @@ impl View<'_> {
     }
 
     /// Gives plants side by side their places, to the right of those that have theirs; those of a plot keep theirs.
-    fn place(&self, whose: Whose, growing: BTreeMap<u32, Growing>, subjects: &mut Vec<Subject>) {
+    fn place(
+        &self,
+        whose: Whose,
+        growing: BTreeMap<u32, Growing>,
+        options: &[MeshOptions],
+        subjects: &mut Vec<Subject>,
+    ) {
         let trial = self.regrowth.trial();
         for (number, grown) in growing {
             let place = match whose {
@@ -191,7 +213,7 @@ impl View<'_> {
                 reach: grown.reach,
                 life: grown.maker.finish(),
                 table: grown.table,
-                options: self.options(grown.species),
+                options: options[grown.species].clone(),
             });
         }
         if let (Whose::Plant(_), [.., before, last]) = (whose, &mut subjects[..]) {
@@ -228,6 +250,7 @@ impl View<'_> {
             run: scenario.name.clone(),
             seed: scenario.seed,
             tolerance,
+            detail: 0,
             of_plot: matches!(self.whose[0], Whose::Plot(_)),
             ages: self.ages.iter().map(|age| (age.age() as f32, caption(*age))).collect(),
             events: events.iter().map(|((age, what), count)| (age.age() as f32, *what, *count)).collect(),
@@ -241,8 +264,42 @@ impl View<'_> {
     }
 }
 
+impl Look {
+    /// Adds a plant at an age; `most` is the largest detail that is counted.
+    pub(super) fn add(&mut self, (plant, age): (&Plant, Tick), options: &MeshOptions, most: u8) {
+        self.reach = self.reach.max(reach_of(plant, age));
+        for detail in 1..=most {
+            let options = MeshOptions { detail, ..organs_alone(options) };
+            self.triangles[usize::from(detail)] += Scene::new(plant, age, &options).counts().faces;
+        }
+    }
+
+    /// The larger of each of two.
+    pub(super) fn most(self, other: Self) -> Self {
+        let triangles = std::array::from_fn(|detail| self.triangles[detail].max(other.triangles[detail]));
+        Self { reach: self.reach.max(other.reach), triangles }
+    }
+
+    /// How large the largest is, metres.
+    pub(super) fn reach(&self) -> f32 {
+        self.reach
+    }
+
+    /// The largest detail up to one that is asked for whose triangles are not too many.
+    pub(super) fn detail(&self, asked: u8) -> u8 {
+        (1..=asked).rev().find(|detail| self.triangles[usize::from(*detail)] <= MOST_TRIANGLES).unwrap_or(0)
+    }
+}
+
+/// Half a pixel of a screen that shows an extent: a bare number of micrometres, so that it can be told and asked for
+/// again.
+pub(super) fn tolerance_of(extent: f32) -> f32 {
+    let micrometres = (extent / PIXELS * 1e6).round().max(10.0);
+    if extent > 0.0 { micrometres / 1e6 } else { OF_NOTHING }
+}
+
 /// The largest side of the box around what stands of a plant, metres.
-fn reach_of(plant: &Plant, age: Tick) -> f32 {
+pub(super) fn reach_of(plant: &Plant, age: Tick) -> f32 {
     let nodes = (0..plant.nodes.len() as u32).map(NodeId).filter(|node| plant.stands(*node, age));
     let tips = nodes.map(|node| plant.frames.at(node).advanced(plant.posed_length(node)).base);
     let (mut low, mut high) = ([0.0_f32; 3], [0.0_f32; 3]);
@@ -253,4 +310,19 @@ fn reach_of(plant: &Plant, age: Tick) -> f32 {
     let organs = (0..plant.organs.len()).filter(|organ| plant.organ_stands(OrganId(*organ as u32), age));
     let organ = organs.map(|organ| plant.organs.length[organ]).fold(0.0, f32::max);
     [0, 1, 2].map(|k| high[k] - low[k]).into_iter().fold(organ, f32::max)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_detail_of_a_page_is_the_largest_that_is_not_too_large() {
+        let look = |triangles| Look { reach: 1.0, triangles };
+        let many = look([0, 10, MOST_TRIANGLES, MOST_TRIANGLES + 1]);
+        assert_eq!([0, 1, 2, 3].map(|asked| many.detail(asked)), [0, 1, 2, 2]);
+        assert_eq!(look([0, MOST_TRIANGLES + 1, 0, 0]).detail(1), 0);
+        let both = many.most(look([0, 20, 5, 7]));
+        assert_eq!(both.triangles, [0, 20, MOST_TRIANGLES, MOST_TRIANGLES + 1]);
+    }
 }

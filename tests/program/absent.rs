@@ -58,7 +58,7 @@ pub fn measured(file: &str) -> Option<String> {
 }
 
 /// The folder of measured data; `None` where the data are left out.
-fn folder() -> Option<PathBuf> {
+pub fn folder() -> Option<PathBuf> {
     match env::var_os(DATA).filter(|value| !value.is_empty()) {
         Some(value) if value == NONE => None,
         Some(value) => Some(PathBuf::from(value)),

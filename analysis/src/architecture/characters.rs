@@ -59,6 +59,19 @@ pub struct Characters {
     pub branch_relays: Relays,
     /// Inclinations under weight, from recorded directions.
     pub lie: Lie,
+    /// What is not told of the plant; nothing of a plant that has grown.
+    pub untold: Untold,
+}
+
+/// What the file of a measured plant does not tell. A model does not lack what nobody has looked at.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct Untold {
+    /// Whether axes flower, and where.
+    pub flowers: bool,
+    /// Which nodes are of one growth unit.
+    pub units: bool,
+    /// Which apices have ended.
+    pub ends: bool,
 }
 
 impl Characters {

@@ -14,7 +14,7 @@ mod relays;
 mod share;
 pub mod tolerance;
 
-pub use characters::Characters;
+pub use characters::{Characters, Untold};
 pub use lie::Lie;
 pub use models::{ARCHITECTURES, Architecture, Lacks};
 pub use of_run::{LOOKED_AT, Qualified, qualified};

@@ -87,6 +87,10 @@ fn no_terminal_flowers(c: &Characters) -> Lacks {
     must(c.flowered_trunks + c.flowered_branches == 0, "no apex becomes a flower")
 }
 
+fn lateral_flowers(c: &Characters) -> Lacks {
+    must(c.untold.flowers || c.lateral_flowers > 0, "flowers are lateral")
+}
+
 fn one_unbranched_axis(c: &Characters) -> Lacks {
     must(c.axes == 1, "there is one axis alone")
 }
@@ -101,11 +105,11 @@ fn monopodial_trunk(c: &Characters) -> Lacks {
 }
 
 fn in_tiers(c: &Characters) -> Lacks {
-    must(c.tiers == Some(true), "branches stand in tiers at the tips of growth units")
+    must(c.untold.units || c.tiers == Some(true), "branches stand in tiers at the tips of growth units")
 }
 
 fn not_in_tiers(c: &Characters) -> Lacks {
-    must(c.tiers == Some(false), "branches are continuous or diffuse along the trunk, not in tiers")
+    must(c.untold.units || c.tiers == Some(false), "branches are continuous or diffuse along the trunk, not in tiers")
 }
 
 fn plagiotropic_branches(c: &Characters) -> Lacks {
@@ -132,13 +136,13 @@ fn apposition(c: &Characters) -> Lacks {
 
 fn holttum(c: &Characters) -> Lacks {
     one_unbranched_axis(c)?;
-    must(c.flowered_trunks == 1, "the axis ends in a flower")?;
-    must(!c.lives, "no bud lives after the flower")
+    must(c.untold.flowers || c.flowered_trunks == 1, "the axis ends in a flower")?;
+    must(c.untold.ends || !c.lives, "no bud lives after the flower")
 }
 
 fn corner(c: &Characters) -> Lacks {
     one_unbranched_axis(c)?;
-    must(c.lateral_flowers > 0, "flowers are lateral")?;
+    lateral_flowers(c)?;
     no_terminal_flowers(c)
 }
 
@@ -149,14 +153,14 @@ fn tomlinson(c: &Characters) -> Lacks {
     no_forks(c)?;
     // An axis that ends in a flower is that of Holttum's model, whatever flowers stand below its tip; any other axis is
     // that of Corner's model.
-    must(c.lateral_flowers + c.flowered_trunks > 0, "axes flower, at their tips or on their sides")
+    must(c.untold.flowers || c.lateral_flowers + c.flowered_trunks > 0, "axes flower, at their tips or on their sides")
 }
 
 fn schoute(c: &Characters) -> Lacks {
     no_basal_shoots(c)?;
     must(c.dichotomies.of > 0, "apices divide")?;
     must(nearly_all(c.dichotomies), "apices divide into two equal axes of their own order")?;
-    must(c.lateral_flowers > 0, "flowers are lateral")?;
+    lateral_flowers(c)?;
     no_axillary_axes(c)?;
     no_relays(c)?;
     no_terminal_flowers(c)
@@ -262,7 +266,7 @@ fn roux(c: &Characters) -> Lacks {
     plagiotropic_branches(c)?;
     no_relays(c)?;
     no_terminal_flowers(c)?;
-    must(c.lateral_flowers > 0, "flowers are lateral")?;
+    lateral_flowers(c)?;
     must(hardly_any(c.determinate_branches), "branches are long-lived: they grow until they die")
 }
 

@@ -40,3 +40,13 @@ pub const BENT_OVER: f64 = 0.5;
 pub const ERECT: f32 = 0.8;
 /// The least rise of the vertical part of the direction of an internode that was erected.
 pub const RISEN: f32 = 0.3;
+
+/// The least number of internodes of a measured axis that shows whether it turns up.
+pub const LEAST_COURSE: usize = 5;
+/// The inclination, degrees from the vertical, up to which the ends of measured axes are upright whether they turn or
+/// not.
+pub const STEEP_DEG: f64 = 30.0;
+/// The least part of their first inclination by which measured axes turn up that are orthotropic. Those of grown plants
+/// of Rauh's and Attims's models turn up by 0.17 to 0.54 of it, those of Massart's and Roux's by less than nothing, the
+/// branches of a measured coffee tree by 0.10.
+pub const TURNS_UP: f64 = 0.125;

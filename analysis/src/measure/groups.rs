@@ -119,7 +119,10 @@ impl Groups {
             By::Nothing => Box::new(|_| "all".to_owned()),
             By::Run => Box::new(|_| source.label.clone()),
             By::Treatment => Box::new(|plant| source.treatments[plant.treatment as usize].clone()),
-            By::Species => Box::new(|plant| source.species[plant.species as usize].clone()),
+            By::Species => {
+                let of = |plant: &super::source::Plant| source.species.get(plant.species as usize);
+                Box::new(move |plant| of(plant).cloned().unwrap_or_else(|| "none".to_owned()))
+            }
             By::Replicate => Box::new(move |plant| name(plant.replicate)),
             By::Block => Box::new(move |plant| name(plant.block)),
             By::Plot => Box::new(move |plant| name(plant.plot)),

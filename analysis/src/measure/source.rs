@@ -29,6 +29,7 @@ pub(super) struct Source {
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Plant {
     pub treatment: u32,
+    /// No species where a measured plant's file tells none.
     pub species: u32,
     pub replicate: i32,
     pub block: i32,
@@ -131,7 +132,7 @@ impl Source {
                 let end = ends.get(&plot[row]).copied().unwrap_or(until);
                 let plant = Plant {
                     treatment: treatment.at(row).map_or(0, |at| treatment_of[at]),
-                    species: species.at(row).map_or(0, |at| species_of[at]),
+                    species: species.at(row).map_or(u32::MAX, |at| species_of[at]),
                     replicate: replicate[row],
                     block: block[row],
                     plot: plot[row],

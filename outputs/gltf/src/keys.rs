@@ -108,7 +108,11 @@ impl KeyMaker {
             self.known.resize(number + 1, NONE);
         }
         let last = self.keyed.alone.get(self.known[number] as usize);
-        let goes_on = last.is_some_and(|last| last.keys().end == key && last.vertices() == vertices.len());
+        // A form from near that changes with age may have as many corners and other triangles.
+        let goes_on = last.is_some_and(|last| {
+            let same = last.vertices() == vertices.len() && self.keyed.faces[last.faces.clone()] == *faces;
+            last.keys().end == key && same
+        });
         if !goes_on {
             let faces = self.share(faces);
             self.known[number] = self.keyed.alone.len() as u32;

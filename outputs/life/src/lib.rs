@@ -42,8 +42,10 @@ pub use track::{Key, Track, between};
 
 use glam::{Mat3, Vec3};
 use kept::Kept;
+use phytomer_meshes::{NearForm, Nears};
 use phytomer_sim::plant::{Form, Kind};
 use std::ops::Range;
+use std::sync::Arc;
 
 /// How near the keyframes of a life are to the plant.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -90,6 +92,8 @@ pub struct Life {
     pub surfaces: Vec<Surface>,
     /// The forms of internodes that are drawn by themselves.
     pub stems: Vec<Model>,
+    /// The forms of organs seen from near; none at detail 0.
+    pub nears: Option<Arc<Nears>>,
     places: Kept<4>,
     poses: Kept<12>,
     tints_of_points: Kept<3>,
@@ -137,6 +141,8 @@ pub struct Point {
 pub enum What {
     /// An organ of a form.
     Organ(Form),
+    /// An organ of a form from near, which is among those of the life.
+    Near(NearForm),
     /// An organ with an outline of its own, by its place among those of the life; its sizes are shares of the outline.
     Outlined(u32),
     /// An organ that is a curved surface, by its place among those of the life. A point (x, y, z) of the surface is at

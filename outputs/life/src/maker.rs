@@ -43,6 +43,9 @@ impl Maker {
         self.life.ages.push(at);
         (self.life.plant, self.life.place) = (plant.id, plant.place);
         let scene = Scene::new(plant, age, &self.options);
+        if self.life.nears.is_none() {
+            self.life.nears = scene.nears().cloned();
+        }
         let (stems, nearness) = (scene.stems(), self.nearness);
         let apart = Vec::new();
         let last = (u32::MAX, 0);

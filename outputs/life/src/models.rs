@@ -35,9 +35,12 @@ pub struct Models<'a> {
 impl<'a> Models<'a> {
     /// No model yet, of lives that are drawn with these options.
     pub fn of(lives: &'a [Life], options: &'a [MeshOptions]) -> Self {
-        let same = |a: &MeshOptions, b: &MeshOptions| Arc::ptr_eq(&a.own, &b.own);
-        let alike = |own: &MeshOptions| options.iter().position(|other| same(own, other)).unwrap_or_default();
-        let alike = options.iter().map(alike).collect();
+        let same = |a: usize, b: usize| {
+            let nears = [a, b].map(|life| lives.get(life).and_then(|life| life.nears.as_ref()).map(Arc::as_ptr));
+            Arc::ptr_eq(&options[a].own, &options[b].own) && nears[0] == nears[1]
+        };
+        let alike = |own: usize| (0..own).find(|other| same(own, *other)).unwrap_or(own);
+        let alike = (0..options.len()).map(alike).collect();
         let (places, plain, reaches) = Default::default();
         Self { lives, options, alike, places, made: Vec::new(), plain, reaches }
     }
@@ -65,21 +68,31 @@ impl<'a> Models<'a> {
 
     /// The form of a part that was met, in any colour.
     pub fn form(&self, life: usize, part: &Part) -> Option<&Model> {
-        self.plain.get(&(self.whose(life, part), form_of(part)))
+        self.plain.get(&(self.whose(life, part), self.form_of(life, part)))
     }
 
     /// How far a part that was met reaches from its base, in the largest of its sizes.
     pub fn reach(&self, life: usize, part: &Part) -> f32 {
-        self.reaches.get(&(self.whose(life, part), form_of(part))).copied().unwrap_or(f32::INFINITY)
+        self.reaches.get(&(self.whose(life, part), self.form_of(life, part))).copied().unwrap_or(f32::INFINITY)
     }
 
     /// The life whose forms a part has: what is a polygon, a surface or an internode has its own life's.
     fn whose(&self, life: usize, part: &Part) -> usize {
-        if matches!(part.what, What::Organ(_)) { self.alike[life] } else { life }
+        if matches!(part.what, What::Organ(_) | What::Near(_)) { self.alike[life] } else { life }
     }
 
     fn key(&self, life: usize, part: &Part, tint: [f32; 3]) -> Key {
-        (self.whose(life, part), part.kind as u8, form_of(part), [stepped(tint), part.stalk])
+        (self.whose(life, part), part.kind as u8, self.form_of(life, part), [stepped(tint), part.stalk])
+    }
+
+    /// The form of a part; from near it is one whatever its fullness, unless that is in its mesh.
+    fn form_of(&self, life: usize, part: &Part) -> [u32; 3] {
+        let of = form_of(part);
+        let mesh = |form| self.lives[life].nears.as_ref()?.mesh(form);
+        match part.what {
+            What::Near(form) if mesh(form).is_some_and(|mesh| !mesh.is_in_parts()) => [of[0], of[1], 0],
+            _ => of,
+        }
     }
 
     fn make(&self, life: usize, part: &Part, colours: [[u8; 3]; 2]) -> Model {
@@ -88,6 +101,10 @@ impl<'a> Models<'a> {
             What::Organ(form) => {
                 let fullness = (part.fullness * FULLNESS).round() / FULLNESS;
                 Some(Model::of_form(&self.options[life], form, fullness, colours))
+            }
+            What::Near(form) => {
+                let fullness = (part.fullness * FULLNESS).round() / FULLNESS;
+                of.nears.as_ref().and_then(|nears| Some(Model::of_near(nears.mesh(form)?, fullness, colours)))
             }
             What::Outlined(place) => {
                 of.outlines.get(place as usize).map(|corners| Model::of_outline(corners, colours[0]))
@@ -126,6 +143,7 @@ pub fn stepped(tint: [f32; 3]) -> [u8; 3] {
 fn form_of(part: &Part) -> [u32; 3] {
     match part.what {
         What::Organ(form) => [0, u32::from(form.0), (part.fullness * FULLNESS).round().max(0.0) as u32],
+        What::Near(form) => [4, form.number(), (part.fullness * FULLNESS).round().max(0.0) as u32],
         What::Outlined(place) => [1, place, 0],
         What::Surface(place) => [2, place, 0],
         What::Internode => [3, part.stem, 0],

@@ -136,7 +136,13 @@ impl Parts {
         let Some(state) = self.states.get(known) else { return NONE };
         let surface = || plant.stated_organs.surface(organ).map(|(place, _)| place);
         let same = match state.what {
-            What::Organ(form) => form == plant.organs.form[organ.index()] && plant.outline_of(organ).is_empty(),
+            What::Organ(form) => {
+                let same = form == plant.organs.form[organ.index()] && plant.outline_of(organ).is_empty();
+                same && scene.near(organ).is_none()
+            }
+            What::Near(form) => {
+                plant.outline_of(organ).is_empty() && scene.near(organ).map(|(own, _)| own) == Some(form)
+            }
             What::Outlined(outline) => plant.outline_of(organ) == self.outlines[outline as usize],
             What::Surface(number) => surface() == Some(self.surfaces[number as usize].0),
             What::Internode => false,
@@ -148,6 +154,7 @@ impl Parts {
         let plant = scene.plant();
         match own {
             OwnForm::None => What::Organ(plant.organs.form[organ.index()]),
+            OwnForm::Near(form) => What::Near(form),
             OwnForm::Outline => {
                 let corners = plant.outline_of(organ);
                 // Neighbouring organs of one kind mostly have one outline.
@@ -175,7 +182,7 @@ impl Parts {
             What::Surface(surface) => {
                 extent_of(self.surfaces[surface as usize].1.points().iter().map(|point| point.at))
             }
-            What::Organ(_) | What::Internode => 1.0,
+            What::Organ(_) | What::Near(_) | What::Internode => 1.0,
         };
         let (pose, tint) = (Keyed::begin((seen, shown.pose)), Keyed::begin((seen, shown.tint)));
         let part = self.parts.push(part);

@@ -64,9 +64,11 @@ pub use file::{MeshError, MeshFile, write_mesh};
 pub use forms::own::{MeshFault, OwnForms, check as check_form};
 pub use forms::{Depth, FormMesh, Point as FormPoint};
 pub use model::Model;
+pub use near::{NearForm, Nears, SharedNears};
 pub use obj::Obj;
 pub use outline::OwnForm;
 pub use patched::Patched;
+pub use phytomer_looks::MOST_DETAIL;
 pub use pictures::Pictures;
 pub use plot::{PlotBody, PlotDrawing, PlotMember, PlotMesh};
 pub use ply::Ply;
@@ -192,6 +194,8 @@ pub struct MeshOptions {
     pub detail: u8,
     /// How many materials a mesh has.
     pub slotting: Slotting,
+    /// The forms from near that plants with these options have met.
+    pub nears: SharedNears,
 }
 
 impl MeshOptions {
@@ -235,6 +239,7 @@ impl Default for MeshOptions {
             attributes: false,
             detail: 0,
             slotting: Slotting::Kind,
+            nears: SharedNears::default(),
         }
     }
 }

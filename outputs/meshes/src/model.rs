@@ -50,6 +50,13 @@ impl Model {
         Self::of_shape(options.shape(form), fullness, colours)
     }
 
+    /// A form of an organ that is seen from near, with the tints of its parts over its colours.
+    pub fn of_near(form: &FormMesh, fullness: f32, colours: [[u8; 3]; 2]) -> Self {
+        let mut model = Self::of_shape(form, fullness, colours);
+        form.tint(&mut model.mesh.vertices);
+        model
+    }
+
     fn of_shape(shape: &FormMesh, fullness: f32, colours: [[u8; 3]; 2]) -> Self {
         let in_parts = shape.is_in_parts();
         let fullness = if in_parts { fullness } else { 1.0 };

@@ -2,13 +2,15 @@
 //!
 //! In a picture detail goes by size on the film: the distance within which organs are drawn is half a pixel there, and
 //! an organ has the detail whose triangles are still some pixels large. So a full tree costs hardly more than at detail
-//! 0. Absent: the forms themselves (`forms::near`).
+//! 0. Instances have the form of the detail that is asked for, by its [`NearForm`]. Absent: the forms themselves
+//! (`forms::near`).
 
 use super::MeshOptions;
 use super::forms::{FormMesh, near};
 use phytomer_looks::{Blade, Capitulum, Near, Paints, place_of_own};
 use phytomer_sim::clock::{NEVER, Tick};
-use phytomer_sim::plant::{OrganId, PaintNumber, Plant};
+use phytomer_sim::plant::{Form, OrganId, PaintNumber, Plant};
+use std::sync::{Arc, OnceLock};
 
 /// The length that an organ has at least for each detail from 1, in distances within which organs are drawn.
 const LENGTHS: [f32; 3] = [30.0, 120.0, 400.0];
@@ -16,24 +18,82 @@ const LENGTHS: [f32; 3] = [30.0, 120.0, 400.0];
 /// The stages of a head that opens as it ages, and of a blade that tears.
 const STAGES: u8 = 8;
 
+/// Which form from near an organ has: the form of the library or the setting of its species with its stage, and the
+/// detail and the class of its proportions.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub struct NearForm {
+    source: Source,
+    place: u8,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum Source {
+    Library(u8),
+    Stated { setting: u16, stage: u8 },
+}
+
+impl NearForm {
+    /// A number that no other form of its plant has.
+    pub fn number(self) -> u32 {
+        let source = match self.source {
+            Source::Library(form) => u32::from(form) << 8,
+            Source::Stated { setting, stage } => 1 << 31 | u32::from(setting) << 12 | u32::from(stage) << 8,
+        };
+        source | u32::from(self.place)
+    }
+}
+
+/// Room for the forms from near of a species, which all scenes with the same options share.
+#[derive(Debug, Clone, Default)]
+pub struct SharedNears(Arc<OnceLock<Arc<Nears>>>);
+
+impl SharedNears {
+    /// The forms of a species with such looks.
+    pub fn of(&self, paints: &Paints) -> Arc<Nears> {
+        let shared = self.0.get_or_init(|| Arc::new(Nears::of(paints)));
+        // Options may be used for plants of several species; the others have forms of their own.
+        if shared.is_of(paints) { Arc::clone(shared) } else { Arc::new(Nears::of(paints)) }
+    }
+}
+
 /// The settings of a species, and the forms that are made of them.
 #[derive(Debug, Default)]
 pub struct Nears {
+    stated: Vec<Near>,
     /// For each setting its stages; one of what does not change with its age.
     made: Vec<Vec<(Near, near::Made)>>,
 }
 
 impl Nears {
-    /// The settings of a species; none at detail 0.
-    pub fn of(paints: &Paints, detail: u8) -> Self {
-        let stated = if detail > 0 { paints.nears() } else { &[] };
+    /// The settings of a species.
+    pub fn of(paints: &Paints) -> Self {
         let made = |near: Near| (near, near::Made::new());
-        Self { made: stated.iter().map(|near| stages(near).into_iter().map(made).collect()).collect() }
+        let stated = paints.nears().to_vec();
+        Self { made: stated.iter().map(|near| stages(near).into_iter().map(made).collect()).collect(), stated }
     }
 
-    /// The form of an organ from near; `None` at detail 0 and for a mesh of the user's.
+    fn is_of(&self, paints: &Paints) -> bool {
+        self.stated == paints.nears()
+    }
+
+    /// A form that an organ was found to have.
+    pub fn mesh(&self, form: NearForm) -> Option<&FormMesh> {
+        match form.source {
+            Source::Library(number) => near::of_library_at(Form(number), form.place),
+            Source::Stated { setting, stage } => {
+                self.made.get(usize::from(setting))?.get(usize::from(stage))?.1.at_place(form.place)
+            }
+        }
+    }
+
+    /// The form of an organ from near, and which it is; `None` at detail 0 and for a mesh of the user's.
     #[inline]
-    pub fn form(&self, (plant, age): (&Plant, Tick), organ: OrganId, options: &MeshOptions) -> Option<&FormMesh> {
+    pub fn form(
+        &self,
+        (plant, age): (&Plant, Tick),
+        organ: OrganId,
+        options: &MeshOptions,
+    ) -> Option<(NearForm, &FormMesh)> {
         if options.detail == 0 {
             return None;
         }
@@ -46,13 +106,22 @@ impl Nears {
             return None;
         }
         let paint = plant.look_of_organ(organ).map_or(PaintNumber::NONE, |look| look.paint);
-        let stated = Paints::of(&plant.habit).organ(paint).near.and_then(|near| self.made.get(usize::from(near)));
+        let setting = Paints::of(&plant.habit).organ(paint).near;
+        let stated = setting.and_then(|setting| Some((setting, self.made.get(usize::from(setting))?)));
         let stage = |stages: &[(Near, near::Made)]| stage(plant, organ, age, stages.len());
-        match stated.and_then(|stages| stages.get(stage(stages))) {
-            Some((near, made)) => Some(made.of(near, detail, size, organs.area[place])),
-            None if place_of_own(organs.form[place]).is_some() => None,
-            None => Some(near::of_library(organs.form[place], detail, size, organs.area[place])),
-        }
+        let stated = stated.and_then(|(setting, stages)| {
+            let stage = stage(stages);
+            Some((Source::Stated { setting, stage: stage as u8 }, stages.get(stage)?))
+        });
+        let (source, (mesh, place)) = match stated {
+            Some((source, (near, made))) => (source, made.of(near, detail, size, organs.area[place])),
+            None if place_of_own(organs.form[place]).is_some() => return None,
+            None => {
+                let form = organs.form[place];
+                (Source::Library(form.0), near::of_library(form, detail, size, organs.area[place]))
+            }
+        };
+        Some((NearForm { source, place }, mesh))
     }
 }
 

@@ -6,6 +6,7 @@
 
 use super::chunk::{Tag, Vertex};
 use super::forms::{FormMesh, plane_normal};
+use super::near::NearForm;
 use super::tube::cross;
 use phytomer_looks::polygon::{is_plane, triangles};
 use phytomer_looks::{Surface, SurfacePoint};
@@ -16,6 +17,8 @@ use std::ops::Range;
 /// The form that an organ states for itself.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum OwnForm {
+    /// That of a detail above 0.
+    Near(NearForm),
     /// None: it has the form of its column.
     None,
     /// An outline, [`Plant::outline_of`].

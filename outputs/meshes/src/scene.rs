@@ -11,7 +11,7 @@ use super::columns::Columns;
 use super::detail::{Detail, Primitive};
 use super::dress::{Crown, is_leaf};
 use super::forms::{FormMesh, Placement};
-use super::near::Nears;
+use super::near::{NearForm, Nears};
 use super::outline::{self, OrganForm, Outlines, OwnForm, Shown};
 use super::stem::Stems;
 use super::wood::Wood;
@@ -23,6 +23,7 @@ use phytomer_sim::pose::{Frame, organ_frame, stated_organ_frame};
 use std::convert::Infallible;
 use std::io;
 use std::ops::Range;
+use std::sync::Arc;
 
 /// An organ whose insertion angle has a smaller sine stands on the tip of the stem, not on its side.
 const TERMINAL: f32 = 1e-3;
@@ -43,8 +44,8 @@ pub struct Scene<'a> {
     crown: Option<Crown>,
     /// What vertices tell beside the properties of every mesh.
     columns: Option<Columns<'a>>,
-    /// The forms that the species states for organs seen from near.
-    nears: Nears,
+    /// The forms of organs seen from near; none at detail 0.
+    nears: Option<Arc<Nears>>,
 }
 
 /// An organ as it is drawn: where, how large and in what colours.
@@ -75,7 +76,7 @@ impl<'a> Scene<'a> {
         let wood = Wood::of(&stems, options);
         let paints = Paints::of(&plant.habit);
         let columns = Columns::of(plant, stems.detail.as_ref(), options.swings.as_ref(), options.attributes);
-        let (nears, options) = (Nears::of(paints, options.detail), options.clone());
+        let (nears, options) = ((options.detail > 0).then(|| options.nears.of(paints)), options.clone());
         let outlines = Outlines::of(plant);
         let mut scene = Self { plant, age, options, paints, stems, wood, outlines, crown: None, columns, nears };
         scene.crown = scene.options.crown_normals.then(|| scene.crown()).flatten();
@@ -226,7 +227,8 @@ impl<'a> Scene<'a> {
             OrganForm::Shape(shape) => {
                 let Placement { base, heading, up, size, fullness } = self.placement(organ, shape);
                 let size = [size[0], size[1], 0.0];
-                DrawnOrgan { base, heading, up, size, fullness, colours, own: OwnForm::None }
+                let own = self.near(organ).map_or(OwnForm::None, |(form, _)| OwnForm::Near(form));
+                DrawnOrgan { base, heading, up, size, fullness, colours, own }
             }
             OrganForm::Outline(..) => {
                 let Frame { base, heading, up } = self.organ_base(organ);
@@ -241,6 +243,17 @@ impl<'a> Scene<'a> {
                 DrawnOrgan { base, heading, up, size, fullness: 1.0, colours, own: OwnForm::Surface(place) }
             }
         }
+    }
+
+    /// The forms of organs seen from near; none at detail 0.
+    pub fn nears(&self) -> Option<&Arc<Nears>> {
+        self.nears.as_ref()
+    }
+
+    /// The form from near of an organ, and which it is; `None` where it has that of detail 0 or a mesh of the user's.
+    #[inline]
+    pub fn near(&self, organ: OrganId) -> Option<(NearForm, &FormMesh)> {
+        self.nears.as_ref()?.form((self.plant, self.age), organ, &self.options)
     }
 
     /// The colours of an organ and of its stalk.
@@ -292,8 +305,7 @@ impl<'a> Scene<'a> {
     #[inline]
     fn shape_of(&self, organ: OrganId) -> &FormMesh {
         let (organs, place) = (&self.plant.organs, organ.index());
-        let near = self.nears.form((self.plant, self.age), organ, &self.options);
-        let shape = near.unwrap_or_else(|| self.options.shape(organs.form[place]));
+        let shape = self.near(organ).map_or_else(|| self.options.shape(organs.form[place]), |(_, near)| near);
         match self.options.tolerance.filter(|tolerance| tolerance.organs) {
             Some(tolerance) => shape.within(tolerance.distance, [organs.length[place], organs.width[place]]),
             None => shape,

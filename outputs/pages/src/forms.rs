@@ -19,6 +19,8 @@ type Key = (usize, Shape, u8, [u8; 3]);
 enum Shape {
     /// By the number of the form.
     Library(u8),
+    /// By the number of the form from near.
+    Near(u32),
     Outline(usize, u32),
     Surface(usize, u32),
     Internode(usize, u32),
@@ -44,6 +46,7 @@ impl Forms {
     pub fn of(&mut self, part: &Part, life: &Life) -> u32 {
         let shape = match part.what {
             What::Organ(form) => Shape::Library(form.0),
+            What::Near(form) => Shape::Near(form.number()),
             What::Outlined(place) => Shape::Outline(self.subject, place),
             What::Surface(place) => Shape::Surface(self.subject, place),
             What::Internode => Shape::Internode(self.subject, part.stem),
@@ -68,6 +71,10 @@ impl Forms {
     fn described(&self, part: &Part, life: &Life, stalk: [u8; 3]) -> Value {
         let mut form = match part.what {
             What::Organ(form) => of_mesh(self.options.shape(form)),
+            What::Near(form) => match life.nears.as_ref().and_then(|nears| nears.mesh(form)) {
+                Some(mesh) => of_near(mesh),
+                None => of_model(&Model::default().mesh, "width"),
+            },
             What::Outlined(place) => {
                 let corners = life.outlines.get(place as usize).map_or(&[][..], Vec::as_slice);
                 of_model(&Model::of_outline(corners, NO_COLOUR).mesh, "share")
@@ -106,6 +113,16 @@ fn of_mesh(mesh: &FormMesh) -> Value {
     let corners: Vec<i64> = corners.collect();
     let scale = if mesh.depth() == Depth::Width { "width" } else { "length" };
     json!({"scale": scale, "in_parts": mesh.is_in_parts(), "corners": corners, "faces": mesh.faces})
+}
+
+/// A form from near: as one of the library, and for each corner the colour that lies over its own with its share, in
+/// 255ths; none where no corner has one.
+fn of_near(mesh: &FormMesh) -> Value {
+    let mut form = of_mesh(mesh);
+    if mesh.points.iter().any(|point| point.tint[3] > 0) {
+        form["tints"] = json!(mesh.points.iter().flat_map(|point| point.tint).collect::<Vec<u8>>());
+    }
+    form
 }
 
 /// An internode that is drawn by itself. Its model tells by a corner of its box what scales it.

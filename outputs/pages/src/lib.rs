@@ -73,6 +73,8 @@ pub struct Page {
     pub seed: u64,
     /// How near the page is to the plants, metres.
     pub tolerance: f32,
+    /// How finely organs are drawn.
+    pub detail: u8,
     /// Whether ages are ticks of a plot.
     pub of_plot: bool,
     /// The ages, with what is said of each.
@@ -159,7 +161,7 @@ impl Page {
         let lengths: Vec<Value> = streams.lengths().map(|(name, length)| json!([name, length])).collect();
         let header = json!({
             "format": 1, "version": env!("CARGO_PKG_VERSION"), "title": self.title, "note": self.note,
-            "run": self.run, "seed": self.seed.to_string(), "tolerance_m": self.tolerance, "of_plot": self.of_plot,
+            "run": self.run, "seed": self.seed.to_string(), "tolerance_m": self.tolerance, "detail": self.detail, "of_plot": self.of_plot,
             "step_m": scale.step, "turn": roll::STEPS, "octave": OCTAVE, "least": LEAST, "near": scale.near,
             "ages": self.ages.iter().map(|(age, _)| *age).collect::<Vec<f32>>(),
             "captions": self.ages.iter().map(|(_, caption)| caption.as_str()).collect::<Vec<&str>>(),

@@ -136,7 +136,7 @@ impl Keys {
 fn exponent_of(part: &Part, [length, width, _]: [i64; 3], near: i64) -> i64 {
     match part.what {
         What::Outlined(_) | What::Surface(_) => OF_SHARES,
-        What::Organ(_) | What::Internode => {
+        What::Organ(_) | What::Near(_) | What::Internode => {
             ((length.max(width) - near).div_euclid(OCTAVE as i64) + 2).clamp(COARSEST, FINEST)
         }
     }

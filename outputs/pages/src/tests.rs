@@ -69,6 +69,7 @@ fn page() -> Page {
         run: "small".to_owned(),
         seed: u64::MAX,
         tolerance: 1e-3,
+        detail: 0,
         of_plot: false,
         ages: (0..=TALL).map(|age| (age as f32, format!("age {age}"))).collect(),
         events: vec![(2.0, "grew", 1)],

@@ -4,17 +4,18 @@
 //! file does not say is null, also in columns that a grown run never has null. Dates of observation are ticks: days
 //! since the first of the file. A plant that tells its age stands at that tick; where neither is told there is the tick
 //! 0. What is not said to be dead counts as living. `resolved_scenario` of `run.json` holds `measured` instead of a
-//! scenario. Absent: plants to be grown or drawn.
+//! scenario. [`MeasuredPlants`] reads such a run, and has its plants as they can be drawn. Absent: plants that grow.
 
 mod drawn;
 mod parts;
+mod recorded;
 mod rows;
 
 use crate::exchange::{Date, Description, Observation};
 use crate::run_folder::{Error, Mode, RunFolder, RunReport};
 use crate::tables::{Input, Part, Provenance, Queue, RunPlan, Sink, Table};
-pub use drawn::plants_of;
 use parts::{Measured, measured};
+pub use recorded::{MeasuredPlants, Row};
 use serde_json::json;
 use std::collections::BTreeSet;
 use std::path::Path;

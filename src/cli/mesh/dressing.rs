@@ -74,6 +74,19 @@ impl Dressing {
     /// # Errors
     /// The option.
     pub fn check(&self, format: Format, plot: bool, life: bool, regrown: &Regrown) -> Result<(), Misuse> {
+        self.check_format(format, plot, life)?;
+        let still = regrown.models().into_iter().zip(regrown.trial.cohorts()).find(|(model, _)| !model.sways());
+        match still.filter(|_| self.wind_data) {
+            Some((_, cohort)) => Err(no_levels("--wind-data", regrown.species()[cohort.species])),
+            None => Ok(()),
+        }
+    }
+
+    /// Refuses what a format or a plot cannot have.
+    ///
+    /// # Errors
+    /// The option.
+    pub fn check_format(&self, format: Format, plot: bool, life: bool) -> Result<(), Misuse> {
         let crown = self.leaf_normals == LeafNormals::Crown;
         let used = [
             ("--bark", self.bark.is_some()),
@@ -85,12 +98,6 @@ impl Dressing {
         if self.colour_by.is_some() && (format != Format::Ply || life) {
             return Err(Misuse("--colour-by: this is for a PLY file (.ply) of one age".to_owned()));
         }
-        if self.detail > 0 && (life || matches!(format, Format::Usd(..))) {
-            let found = if life { "a life" } else { "USD" };
-            return Err(Misuse(format!(
-                "--detail: {found} shows instances of forms; PLY, GLB and STL of one age have it"
-            )));
-        }
         let Some((option, _)) = used.into_iter().find(|(_, used)| *used) else { return Ok(()) };
         if format == Format::Stl {
             return Err(Misuse(format!("{option}: STL holds triangles alone; PLY, GLB and USD hold it")));
@@ -99,12 +106,8 @@ impl Dressing {
             return Err(Misuse(format!("{option}: this is for a plant at one age; leave out --ages")));
         }
         let of_one = [("--wind-data", self.wind_data), ("--attributes", self.attributes)];
-        if let Some((option, _)) = of_one.into_iter().find(|(_, used)| *used && plot) {
-            return Err(Misuse(format!("{option}: this is for a single plant, by --plant")));
-        }
-        let still = regrown.models().into_iter().zip(regrown.trial.cohorts()).find(|(model, _)| !model.sways());
-        match still.filter(|_| self.wind_data) {
-            Some((_, cohort)) => Err(no_levels("--wind-data", regrown.species()[cohort.species])),
+        match of_one.into_iter().find(|(_, used)| *used && plot) {
+            Some((option, _)) => Err(Misuse(format!("{option}: this is for a single plant, by --plant"))),
             None => Ok(()),
         }
     }
@@ -124,6 +127,11 @@ impl Dressing {
         Ok(())
     }
 
+    /// Whether vertices are to tell how they sway.
+    pub fn has_wind_data(&self) -> bool {
+        self.wind_data
+    }
+
     /// The colours of each plant that is shown, by the column that is asked for, and what they mean in words; none
     /// where no column is asked for.
     ///
@@ -134,10 +142,14 @@ impl Dressing {
         Ok(painted(column, pictured, regrown)?)
     }
 
+    /// How finely organs are drawn.
+    pub fn detail(&self) -> u8 {
+        self.detail
+    }
+
     /// The option that gives each leaf vertices of its own, which instances of one leaf have not.
     pub fn of_each_leaf(&self) -> Option<&'static str> {
         let asked = [
-            (self.detail > 0, "--detail"),
             (self.leaf_normals == LeafNormals::Crown, "--leaf-normals crown"),
             (self.wind_data, "--wind-data"),
             (self.attributes, "--attributes"),

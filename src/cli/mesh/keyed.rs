@@ -32,7 +32,8 @@ pub fn write(mesh: &Mesh, regrown: &Regrown) -> Result<Verdict> {
         Asked::Full | Asked::Triangles(_) => Tolerance::of(NEARNESS),
     };
     let seconds = mesh.growing.seconds.unwrap_or(SECONDS);
-    let keying = Keying { ages: ages.keys(mesh.growing.keys.unwrap_or(KEYS)), tolerance, seconds };
+    let (ages_of_keys, detail) = (ages.keys(mesh.growing.keys.unwrap_or(KEYS)), mesh.dressing.detail());
+    let keying = Keying { ages: ages_of_keys, tolerance, seconds, detail };
     let mut file = Destination::create(&mesh.out)?;
     let growth = keyed(&regrown.regrowth(&Breeze::default())?.falling(mesh.fall.fall), whose, &keying, &regrown.forms)?;
     let written = write_growth(&growth, &mut file).with_context(|| mesh.failing())?;

@@ -12,7 +12,7 @@ use phytomer::run::drawing::options_of;
 use phytomer::run::living::{Living, lives};
 use phytomer::run::regrowth::Whose;
 use phytomer_outputs::Destination;
-use phytomer_outputs::meshes::{Drawing, Pictures, PlotMesh, Tolerance};
+use phytomer_outputs::meshes::{Drawing, MeshOptions, Pictures, PlotMesh, Tolerance};
 use phytomer_outputs::usd::{self, Asked, Pace, Plants};
 
 /// How near a life is to the plant where nothing is said, metres.
@@ -32,7 +32,13 @@ pub fn write(mesh: &Mesh, regrown: &Regrown, format: Format) -> Result<Verdict> 
         Fineness::Within(tolerance) => tolerance,
         Fineness::Full | Fineness::Triangles(_) => Tolerance::of(NEAR),
     };
-    let options = |species: usize| options_of(mesh.sides, &regrown.forms.get(species).cloned().unwrap_or_default());
+    // Lives of a species share the forms from near that their options have met.
+    let each = regrown
+        .forms
+        .iter()
+        .map(|forms| MeshOptions { detail: mesh.dressing.detail(), ..options_of(mesh.sides, forms) });
+    let each: Vec<MeshOptions> = each.collect();
+    let options = |species: usize| each[species].clone();
     let finer = Span { step: ages.step.or_else(|| step_of(ages, mesh.growing.seconds)), ..ages };
     let living = lives(&regrowth, whose, &finer.moments(), (within.distance, &options))?;
     let what = match whose {

@@ -7,7 +7,8 @@ use phytomer::run::drawing::options_of;
 use phytomer::run::picturing::Pictured;
 use phytomer_outputs::meshes::MeshOptions;
 use phytomer_outputs::pictures::{Focus, Wanted};
-use phytomer_sim::plant::Class;
+use phytomer_sim::Tick;
+use phytomer_sim::plant::{Class, Plant};
 use std::sync::Arc;
 
 /// What is asked for, by a word or by the number of a component.
@@ -35,7 +36,14 @@ pub fn of(wanted: Wanted, pictured: &Pictured, regrown: &Regrown, detail: u8) ->
         return Err(Misuse("--focus: no plant stands at this age".to_owned()).into());
     };
     let own = regrown.forms.get(member.species).cloned().unwrap_or_default();
-    let options = MeshOptions { detail, ..options_of(8, &own) };
+    on(wanted, (plant, member.number, member.age), &MeshOptions { detail, ..options_of(8, &own) })
+}
+
+/// The organ of a plant of a number at an age.
+///
+/// # Errors
+/// A plant without such an organ at its age.
+pub fn on(wanted: Wanted, (plant, number, age): (&Plant, u32, Tick), options: &MeshOptions) -> Outcome<Arc<Focus>> {
     let what = match wanted {
         Wanted::Component(number) => format!("component {number}"),
         Wanted::Largest(Class::Leaf) => "leaf".to_owned(),
@@ -44,9 +52,8 @@ pub fn of(wanted: Wanted, pictured: &Pictured, regrown: &Regrown, detail: u8) ->
     };
     let missing = || {
         Misuse(format!(
-            "--focus: plant {} has no {what} at age {}; choose another --age, another --plant or another organ",
-            member.number, member.age
+            "--focus: plant {number} has no {what} at age {age}; choose another --age, another --plant or another organ"
         ))
     };
-    Ok(Arc::new(Focus::of(plant, member.age, &options, wanted).ok_or_else(missing)?))
+    Ok(Arc::new(Focus::of(plant, age, options, wanted).ok_or_else(missing)?))
 }

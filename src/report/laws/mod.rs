@@ -39,6 +39,8 @@ struct Axes<'a> {
     /// In the names of files.
     id: String,
     number: u32,
+    /// Whether they grew; else they were measured.
+    grows: bool,
     /// `None` where the species has no such order, or none at all.
     laws: Option<(&'a Buds, &'a Order)>,
     asked: &'a Asked,
@@ -89,10 +91,15 @@ fn of_run(
         let id: String = name.chars().map(|c| if c.is_ascii_alphanumeric() { c } else { '-' }).collect();
         let id = if species.len() > 1 { format!("{id}-{number}") } else { number.to_string() };
         let id = if several { format!("{}-{id}", place + 1) } else { id };
-        Axes { name: format!("order {number}{of_species}{of_run}"), id, number, laws, asked }
+        let grows = reported.trial.is_some();
+        Axes { name: format!("order {number}{of_species}{of_run}"), id, number, grows, laws, asked }
     };
     for ((species, number, short), shares) in &found.nodes {
         nodes::tell(&axes(species, *number), *short, shares, &mut told);
+    }
+    if reported.trial.is_none() {
+        told.words.push(format!("Of the buds of {}, which were not measured, nothing is told.", reported.name));
+        return told.into_parts(parts);
     }
     for ((species, number), lives) in &found.lives {
         lives::tell(&axes(species, *number), lives, &mut told);
@@ -162,6 +169,11 @@ impl Told {
 }
 
 impl Axes<'_> {
+    /// What their own units are called in a figure.
+    fn own(&self) -> &'static str {
+        if self.grows { "grown" } else { "of the run" }
+    }
+
     /// What a species states of these axes.
     fn stated<T>(&self, law: impl Fn(u8, &Order, &Buds) -> Result<T, String>) -> Result<T, String> {
         let (buds, order) = self.laws.ok_or("its model states no laws of buds")?;

@@ -15,7 +15,9 @@ pub fn tell(axes: &Axes, short: bool, grown: &Shares, told: &mut Told) {
     // Field counts do not tell short units from long ones: they are held against the long ones.
     let measured: Vec<(&str, Vec<f64>)> = axes.measured().filter(|_| !short).filter_map(of_units).collect();
     let shares = shares_of(grown);
-    if let Err(why) = &stated {
+    if let Err(why) = stated.as_ref().map_err(String::as_str)
+        && axes.grows
+    {
         told.words.push(format!("Nodes of {kind} of {}: the law is not drawn, for {why}.", axes.name));
     }
     if let Some(only) = only(&shares).filter(|_| measured.is_empty()) {
@@ -25,7 +27,7 @@ pub fn tell(axes: &Axes, short: bool, grown: &Shares, told: &mut Told) {
     }
     let first = shares.iter().position(|share| *share > 0.0).unwrap_or(1);
     let mut series = vec![Series {
-        name: "grown".to_owned(),
+        name: axes.own().to_owned(),
         mark: Mark::Bars,
         points: shares.iter().enumerate().skip(first).map(|(nodes, share)| point(nodes, grown, *share)).collect(),
     }];

@@ -88,6 +88,7 @@ const Drawing = (() => {
         inParts: form.in_parts === true,
         stalk: form.of_internode ? [-1, 0, 0] : form.stalk.map((x) => x / 255),
         corners: this.buffer(cornersOf(form)),
+        tints: form.tints ? this.buffer(Uint8Array.from(form.tints)) : null,
         faces: this.buffer(new Uint32Array(form.faces.flat()), this.gl.ELEMENT_ARRAY_BUFFER),
         count: 3 * form.faces.length,
       };
@@ -175,6 +176,18 @@ const Drawing = (() => {
       gl.vertexAttribDivisor(location, divisor);
     }
 
+    // The colours that lie over corners of a form; none where it has none.
+    tint(buffer) {
+      const { gl } = this;
+      if (buffer === null) {
+        gl.disableVertexAttribArray(13);
+        gl.vertexAttrib4f(13, 0, 0, 0, 0);
+        return;
+      }
+      gl.bindBuffer(gl.ARRAY_BUFFER, buffer);
+      this.attribute(13, 4, gl.UNSIGNED_BYTE, true, 4, 0, 0);
+    }
+
     drawWood(program, view) {
       const { gl } = this;
       const place = this.use(program, view);
@@ -206,7 +219,7 @@ const Drawing = (() => {
       const place = this.use(program, view);
       gl.bindVertexArray(this.partArray);
       for (const { form, first, count } of this.groups) {
-        const { thin, scale, inParts, stalk, corners, faces, count: indices } = this.forms[form];
+        const { thin, scale, inParts, stalk, corners, tints, faces, count: indices } = this.forms[form];
         gl.uniform1i(place('thin'), thin ? 1 : 0);
         gl.uniform1i(place('scale'), scale);
         gl.uniform1i(place('in_parts'), inParts ? 1 : 0);
@@ -215,6 +228,7 @@ const Drawing = (() => {
         gl.bindBuffer(gl.ARRAY_BUFFER, corners);
         for (let k = 0; k < 3; k += 1) this.attribute(k, 3, gl.FLOAT, false, 40, 12 * k, 0);
         this.attribute(3, 1, gl.FLOAT, false, 40, 36, 0);
+        this.tint(view.stained ? null : tints);
         gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, faces);
         gl.bindBuffer(gl.ARRAY_BUFFER, this.partBuffer);
         const at = first * PART;

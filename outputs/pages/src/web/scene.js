@@ -192,6 +192,8 @@ const Scenery = (() => {
       this.plants.forEach((one, of) => {
         for (let i = 0; i < one.parts.components.length; i += 1) {
           const [before, after] = [one.parts.stands(i, this.number), one.parts.stands(i, this.next)];
+          // What takes the place of a part stands from its own age on, and is no new part that grows.
+          if (!before && one.parts.succeeds[i] === 1) continue;
           if ((before || after) && this.shows(one, one.parts.components[i])) chosen.push([of, i, before, after]);
         }
       });
@@ -222,7 +224,9 @@ const Scenery = (() => {
     writePart([of, i, before, after], place, writer, [now, next, found]) {
       const one = this.plants[of];
       const { parts, wood, plant } = one;
-      parts.evaluate(i, after ? this.next : this.number, next, found);
+      const successor = after ? -1 : parts.successors[i];
+      if (successor >= 0 && parts.stands(successor, this.next)) parts.evaluate(successor, this.next, next, found);
+      else parts.evaluate(i, after ? this.next : this.number, next, found);
       if (before) parts.evaluate(i, this.number, now, found);
       else {
         now.set(next);

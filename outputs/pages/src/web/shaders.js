@@ -77,6 +77,7 @@ layout(location = 9) in vec3 size_next;
 layout(location = 10) in float fullness;
 layout(location = 11) in vec4 colour_now;
 layout(location = 12) in vec4 colour_next;
+layout(location = 13) in vec4 tint;
 uniform int first;
 out vec3 place;
 out vec3 normal;
@@ -103,7 +104,7 @@ void main() {
   vec3 n = facing * (scale == 3 ? vec3(1.0) : cofactors);
   normal = turned(turn, length(n) > 1e-20 ? normalize(n) : facing);
   vec3 own = mix(colour_now.rgb, colour_next.rgb, share);
-  colour = of_stalk > 0.5 && stalk.x >= 0.0 ? stalk : own;
+  colour = mix(of_stalk > 0.5 && stalk.x >= 0.0 ? stalk : own, tint.rgb, tint.a);
   id = first + gl_InstanceID;
   gl_Position = camera * vec4(place, 1.0);
 }`;

@@ -283,6 +283,7 @@ const States = (() => {
       this.readSizes(data.header, stream, begin);
       this.readTurns(data.header, stream, begin);
       this.tints = coloursOf(data, `${name}.part`, this.from);
+      this.findSuccessors();
     }
 
     // Places differ from those to which their hosts have carried them.
@@ -357,6 +358,21 @@ const States = (() => {
 
     stands(i, number) {
       return this.from[i] <= number && (this.lasts[i] === 0 || number < this.from[i] + this.lasts[i]);
+    }
+
+    // Of each part the one that takes its place where a component has another form from an age on; −1 for none.
+    findSuccessors() {
+      const first = new Map();
+      const key = (component, age) => component * (this.time.length + 1) + age;
+      for (let i = 0; i < this.from.length; i += 1) first.set(key(this.components[i], this.from[i]), i);
+      this.successors = new Int32Array(this.from.length).fill(-1);
+      this.succeeds = new Uint8Array(this.from.length);
+      for (let i = 0; i < this.from.length; i += 1) {
+        const after = this.lasts[i] > 0 ? first.get(key(this.components[i], this.from[i] + this.lasts[i])) : undefined;
+        if (after === undefined) continue;
+        this.successors[i] = after;
+        this.succeeds[after] = 1;
+      }
     }
 
     // Writes base, quaternion and size of a part at an age.

@@ -43,9 +43,14 @@ impl Made {
         Self { places }
     }
 
-    /// The form of a setting at a detail from 1, for an organ of this length, width and area.
-    pub fn of(&self, near: &Near, detail: u8, size: [f32; 2], area: f32) -> &FormMesh {
+    /// The form of a setting at a detail from 1, for an organ of this length, width and area, and its place.
+    pub fn of(&self, near: &Near, detail: u8, size: [f32; 2], area: f32) -> (&FormMesh, u8) {
         self.fitting(detail, size, area, |aspect, detail| made(near, aspect, detail))
+    }
+
+    /// The form at a place, where it was made.
+    pub fn at_place(&self, place: u8) -> Option<&FormMesh> {
+        self.places.get(usize::from(place))?.get().map(AsRef::as_ref)
     }
 
     /// The form in the proportions that an organ of this area has: where it is much slimmer or fuller than its form,
@@ -56,10 +61,10 @@ impl Made {
         [length, width]: [f32; 2],
         area: f32,
         make: impl Fn(f32, u8) -> FormMesh,
-    ) -> &FormMesh {
-        let mut form = self.at(detail, [length, width], &make);
+    ) -> (&FormMesh, u8) {
+        let (mut form, mut place) = self.at(detail, [length, width], &make);
         if area <= 0.0 || area.is_nan() || form.in_parts {
-            return form;
+            return (form, place);
         }
         let mut wide = width;
         for _ in 0..STEPS {
@@ -69,14 +74,15 @@ impl Made {
                 break;
             }
             wide = next;
-            form = self.at(detail, [length, wide], &make);
+            (form, place) = self.at(detail, [length, wide], &make);
         }
-        form
+        (form, place)
     }
 
-    fn at(&self, detail: u8, size: [f32; 2], make: &impl Fn(f32, u8) -> FormMesh) -> &FormMesh {
+    fn at(&self, detail: u8, size: [f32; 2], make: &impl Fn(f32, u8) -> FormMesh) -> (&FormMesh, u8) {
         let (detail, class) = (detail.clamp(1, MOST_DETAIL), class(size));
-        self.places[usize::from(detail - 1) * CLASSES + class].get_or_init(|| Box::new(make(aspect_of(class), detail)))
+        let place = usize::from(detail - 1) * CLASSES + class;
+        (self.places[place].get_or_init(|| Box::new(make(aspect_of(class), detail))), place as u8)
     }
 }
 
@@ -86,9 +92,15 @@ impl Default for Made {
     }
 }
 
-/// The form of the library at a detail from 1, for an organ of this length, width and area.
-pub fn of_library(form: Form, detail: u8, size: [f32; 2], area: f32) -> &'static FormMesh {
-    static LIBRARY: LazyLock<Vec<Made>> = LazyLock::new(|| FormName::ALL.iter().map(|_| Made::new()).collect());
+static LIBRARY: LazyLock<Vec<Made>> = LazyLock::new(|| FormName::ALL.iter().map(|_| Made::new()).collect());
+
+/// The form of the library at a place, where it was made.
+pub fn of_library_at(form: Form, place: u8) -> Option<&'static FormMesh> {
+    LIBRARY[FormName::of(form).unwrap_or(FormName::Elliptic) as usize].at_place(place)
+}
+
+/// The form of the library at a detail from 1, for an organ of this length, width and area, and its place.
+pub fn of_library(form: Form, detail: u8, size: [f32; 2], area: f32) -> (&'static FormMesh, u8) {
     let name = FormName::of(form).unwrap_or(FormName::Elliptic);
     LIBRARY[name as usize].fitting(detail, size, area, |aspect, detail| match name.near() {
         Some(near) => made(&near, aspect, detail),
