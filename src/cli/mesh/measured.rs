@@ -68,7 +68,9 @@ fn one(
     mesh.joining.has_wood(&what, [&scene])?;
     let mut file = Destination::create(&mesh.out)?;
     let written = check_size(&scene).map_err(anyhow::Error::from);
-    written.and_then(|()| Ok(format.write_plant(&scene, NO_SEED, &mut file)?)).with_context(|| mesh.failing())?;
+    written
+        .and_then(|()| Ok(format.write_plant(&scene, NO_SEED, &mut file, &mesh.out)?))
+        .with_context(|| mesh.failing())?;
     let joined = mesh.joining.in_words();
     mesh.tell(file, &format!("{what}{}{joined}", in_words(options.tolerance.as_ref())))
 }
@@ -109,7 +111,7 @@ fn all(
     let scenes = all.bodies.iter().map(|body| Scene::new(body.plant, body.age, &body.options));
     mesh.joining.has_wood(&what, &scenes.collect::<Vec<_>>())?;
     let mut file = Destination::create(&mesh.out)?;
-    format.write_plot(&all, &mut file).with_context(|| mesh.failing())?;
+    format.write_plot(&all, &mut file, &mesh.out).with_context(|| mesh.failing())?;
     let without = u64::from(measured.plants.count()).saturating_sub(plants.len() as u64);
     let without = if without == 0 { String::new() } else { format!(" ({without} without places are not drawn)") };
     let (plants, joined) = (amounts::of(plants.len() as u64, "plant"), mesh.joining.in_words());
