@@ -107,7 +107,9 @@ fn lay_trees_of_others(folder: &Path) {
     }
     let library = fs::read_to_string(data.join("orchard.xml")).unwrap().replace("\"Quince\"", "\"Almond\"");
     fs::write(folder.join("library.xml"), library).unwrap();
-    let walnut = "CODE:\tFORM-A\nCLASSES:\nP\t1\nA\t2\nS\t3\nFEATURES:\nLength\tREAL\nMTG:\nENTITY-CODE\t\tLength\n/P1/A1/S1\t\t149\n";
+    let walnut = "CODE:\tFORM-A\nCLASSES:\nP\t1\nA\t2\nS\t3\nFEATURES:\nLength\tREAL\nBottomDiameter\tREAL\nXX\tREAL\nYY\tREAL\n\
+                  ZZ\tREAL\nMTG:\nENTITY-CODE\t\tLength\tBottomDiameter\tXX\tYY\tZZ\n/P1\n^/A1\t\t\t\t0\t0\t0\n\
+                  ^/S1\t\t149\t6\t0\t0\t149\n";
     fs::write(folder.join("walnut.mtg"), walnut).unwrap();
 }
 

@@ -26,6 +26,8 @@ pub struct Body<'a> {
     /// The bounding boxes of its blocks; an empty block has its lower corner above its upper corner.
     pub boxes: Vec<[Vec3; 2]>,
     stuff: [Stuff; Kind::ALL.len()],
+    /// How finely its organs are drawn near a camera, at most.
+    detail: u8,
     /// Where it stands.
     pub places: Vec<Vec3>,
     /// The meshes of its blocks, where they are kept; else empty, and blocks are made when they are used.
@@ -33,15 +35,15 @@ pub struct Body<'a> {
 }
 
 impl<'a> Body<'a> {
-    /// A plant at `age`, at each of some places.
+    /// A plant at `age`, at each of some places. Near a camera its organs have up to such a detail.
     pub fn new(
         (plant, age): (&'a Plant, Tick),
-        options: &MeshOptions,
+        (options, detail): (&MeshOptions, u8),
         colours: Option<Vec<[u8; 3]>>,
         places: Vec<Vec3>,
     ) -> Self {
         let keeps = places.len() > 1;
-        Self::of(Scene::new(plant, age, options), colours, places, keeps)
+        Self { detail, ..Self::of(Scene::new(plant, age, options), colours, places, keeps) }
     }
 
     /// A scene at its places; whether its blocks are made once and kept.
@@ -54,13 +56,15 @@ impl<'a> Body<'a> {
         });
         let (kept, blocks) = (kept.collect(), scene.blocks());
         let stuff = stuff(scene.plant(), scene.options().detail);
-        Self { scene: Some(scene), colours, boxes: Vec::new(), stuff, places, kept }.boxed(blocks)
+        let detail = scene.options().detail;
+        Self { scene: Some(scene), colours, boxes: Vec::new(), stuff, detail, places, kept }.boxed(blocks)
     }
 
     /// An obstacle: a closed mesh in the coordinates of its stand.
     pub fn obstacle(mesh: &Arc<Mesh>) -> Self {
         let (kept, stuff) = (vec![Arc::clone(mesh)], [Stuff { thin: false, closed: true, pale: 0 }; Kind::ALL.len()]);
-        Self { scene: None, colours: None, boxes: Vec::new(), stuff, places: vec![Vec3::ZERO], kept }.boxed(1)
+        Self { scene: None, colours: None, boxes: Vec::new(), stuff, detail: 0, places: vec![Vec3::ZERO], kept }
+            .boxed(1)
     }
 
     /// With the bounding boxes of its blocks.
@@ -90,7 +94,9 @@ impl<'a> Body<'a> {
         let scene = self.scene.as_ref()?;
         let seen = self.placed_boxes().flat_map(corners).map(|corner| camera.scale_at(corner + offset));
         let most = seen.fold(f32::MIN_POSITIVE, f32::max);
-        let near = scene.within(Tolerance::of_a_picture(0.5 / most));
+        let (tolerance, detail) = (Some(Tolerance::of_a_picture(0.5 / most)), self.detail);
+        let options = MeshOptions { tolerance, detail, ..scene.options().clone() };
+        let near = Scene::new(scene.plant(), scene.age(), &options);
         let left = room.checked_sub(near.counts().vertices);
         *room = left.unwrap_or(*room);
         Some(Self::of(near, None, self.places.clone(), left.is_some() || self.places.len() > 1))

@@ -98,8 +98,7 @@ impl<'a> Cast<'a> {
         let from = || picture.focus.as_ref().map_or_else(|| picture.view.sun(self.turn), |focus| focus.sun(self.turn));
         let sun = picture.sun.unwrap_or_else(from);
         let seen = picture.focus.as_ref().map(|focus| focus.bounds());
-        // A colour that stands for a value is that of each internode by itself.
-        let full = picture.sides.is_some() || picture.colour_by.is_some();
+        let full = is_full(picture);
         let near: Vec<PlacedStand> = self.stands.iter().filter(|_| !full).map(|stand| stand.near(camera)).collect();
         let stands = if full { &self.stands } else { &near };
         let lights: Vec<_> = stands.iter().map(|stand| stand.light(sun, (seen, picture.detail > 0))).collect();
@@ -158,6 +157,12 @@ impl<'a> Cast<'a> {
     }
 }
 
+/// Whether plants are drawn with all internodes and organs, however small: a colour that stands for a value is that of
+/// each internode by itself.
+fn is_full(picture: &Picture) -> bool {
+    picture.sides.is_some() || picture.colour_by.is_some()
+}
+
 /// The part of a picture of so many stands that is free for plants, beside a legend of this width.
 pub fn frame(picture: &Picture, stands: usize, legend: f32) -> Frame {
     let [width, height] = picture.size.map(|side| side as f32);
@@ -186,8 +191,9 @@ fn bodies<'a>(stand: &'a Stand, picture: &Picture, colours: Vec<Option<Vec<[u8; 
         let Some(places) = places.remove(&key(placed)) else { continue };
         let mut options = MeshOptions { own: Arc::clone(&placed.own), seen: placed.seen, ..MeshOptions::default() };
         options.sides = picture.sides.unwrap_or(options.sides);
-        options.detail = picture.detail;
-        bodies.push(Body::new((placed.plant, placed.age), &options, colours, places));
+        // The camera is placed by the few polygons of detail 0: which detail an organ has follows from it.
+        options.detail = if is_full(picture) { picture.detail } else { 0 };
+        bodies.push(Body::new((placed.plant, placed.age), (&options, picture.detail), colours, places));
     }
     bodies
 }
