@@ -36,6 +36,7 @@ mod scene;
 mod section;
 mod solid;
 mod stem;
+mod stem_near;
 mod stl;
 #[cfg(test)]
 mod tests;
@@ -44,6 +45,7 @@ mod tests_range;
 #[cfg(test)]
 mod tests_stated;
 mod tube;
+mod turned;
 mod welded;
 mod wood;
 
