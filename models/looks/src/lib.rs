@@ -17,7 +17,10 @@ mod surface;
 
 pub use flare::Flare;
 pub use form::{FormName, own_form, place_of_own};
-pub use near::{Apex, Base, Blade, Capitulum, Flower, GOLDEN_DEG, MOST_DETAIL, Margin, Near, Rim, Unsound};
+pub use near::{
+    Apex, Base, Blade, Brush, Capitulum, Cluster, Flower, GOLDEN_DEG, LeafBases, MOST_DETAIL, Margin, Near, NearStem,
+    Rim, Unsound,
+};
 pub use paint::{Bark, Colour, InternodePaint, OrganPaint, Paints};
 pub use section::Section;
 pub use surface::{Surface, SurfacePoint};

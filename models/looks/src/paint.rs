@@ -5,7 +5,7 @@
 //! that is not stated is `None`. Absent: the colours that replace it (`phytomer_meshes::palette`), and how one colour
 //! turns into the next (`phytomer_meshes::colour`).
 
-use super::near::Near;
+use super::near::{Near, NearStem};
 use super::section::Section;
 use super::surface::Surface;
 use phytomer_sim::clock::Tick;
@@ -40,6 +40,8 @@ pub struct InternodePaint {
     pub form: Option<Form>,
     /// Their stated colours.
     pub bark: Bark,
+    /// How they are drawn from near, by its place among those of the paints; `None`: as a tube.
+    pub near: Option<u16>,
 }
 
 /// The stated colours of the organs of a look.
@@ -69,6 +71,7 @@ pub struct Paints {
     surfaces: Vec<Surface>,
     sections: Vec<Section>,
     nears: Vec<Near>,
+    near_stems: Vec<NearStem>,
 }
 
 impl Paints {
@@ -107,6 +110,17 @@ impl Paints {
         &self.nears
     }
 
+    /// Adds how internodes are drawn from near. Returns its place, which the paints of internodes name.
+    pub fn add_near_stem(&mut self, near: NearStem) -> Option<u16> {
+        self.near_stems.push(near);
+        u16::try_from(self.near_stems.len() - 1).ok()
+    }
+
+    /// How internodes with this paint are drawn from near.
+    pub fn near_stem(&self, paint: &InternodePaint) -> Option<&NearStem> {
+        self.near_stems.get(usize::from(paint.near?))
+    }
+
     /// Adds a cross section. Returns its place, which internodes state.
     pub fn add_section(&mut self, section: Section) -> usize {
         self.sections.push(section);
@@ -125,6 +139,7 @@ impl Paints {
             sides: None,
             form: None,
             bark: Bark { shoot: None, young: None, old: None, dead: None, forms_in: None, darkens_in: None },
+            near: None,
         };
         number.place().and_then(|place| self.internodes.get(place)).unwrap_or(&SILENT)
     }
@@ -150,6 +165,7 @@ impl Paints {
             surfaces: Vec::new(),
             sections: Vec::new(),
             nears: Vec::new(),
+            near_stems: Vec::new(),
         };
         habit.for_drawing.get().unwrap_or(&NONE)
     }

@@ -3,8 +3,8 @@
 //!
 //! A piece goes from the base of its internode to its tip along a cubic curve, with the mean directions of neighbours
 //! at both ends, and its width follows a curve without overshoot (Fritsch & Butland 1984); so pieces meet without an
-//! edge. It is hollow on its upper side. A chain that ends broad is rounded there and a little notched. Absent: strips
-//! of detail 0 (`tube`).
+//! edge. It is hollow on its upper side. A chain that ends broad is rounded there and a little notched. A piece may
+//! have a narrow lobe on either side, as the outer sepals of a rose have. Absent: strips of detail 0 (`tube`).
 
 use super::chunk::{Tag, Vertex};
 use super::tube::{Frustum, cross};
@@ -13,6 +13,10 @@ use super::tube::{Frustum, cross};
 const HOLLOW: f32 = 0.24;
 /// How far the rim at a broad end stands beyond the middle, as a share of half the width.
 const NOTCH: f32 = 0.2;
+/// How far a lobe stands out, in halves of the width.
+const LOBE: f32 = 2.2;
+/// Half the length of a lobe's foot, as a share of its internode.
+const FOOT: f32 = 0.24;
 /// The step of the differences by which normals are found.
 const STEP: f32 = 0.02;
 
@@ -33,6 +37,8 @@ pub struct Piece {
     pub before: Option<Frustum>,
     /// The one after it.
     pub after: Option<Frustum>,
+    /// Whether it has a lobe on its right and on its left.
+    pub lobed: [bool; 2],
 }
 
 impl Lamina {
@@ -85,7 +91,9 @@ impl Piece {
         let left = unit(cross(up, along));
         let up = cross(along, left);
         let (half, beyond) = self.half(u);
-        let (aside, lift, ahead) = (half * v, HOLLOW * half * v * v, beyond * v.abs() * v.abs());
+        let lobe = if self.lobed[usize::from(v > 0.0)] { lobe(u) * v * v } else { 0.0 };
+        let (aside, lift) = (half * v * (1.0 + LOBE * lobe), HOLLOW * half * v * v);
+        let ahead = beyond * v * v + 0.8 * LOBE * half * lobe;
         [0, 1, 2].map(|k| middle[k] + aside * left[k] + lift * up[k] + ahead * along[k])
     }
 
@@ -134,6 +142,12 @@ impl Piece {
     }
 }
 
+/// How far a lobe stands out at a share of its internode, in [0, 1].
+fn lobe(u: f32) -> f32 {
+    let beside = ((u - 0.4) / FOOT).abs().min(1.0);
+    (1.0 - beside) * (1.0 - beside) * (1.0 + 2.0 * beside)
+}
+
 fn unit(v: [f32; 3]) -> [f32; 3] {
     let length = (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]).sqrt();
     if length > 1e-20 { v.map(|x| x / length) } else { [0.0, 0.0, 1.0] }
@@ -161,8 +175,8 @@ mod tests {
     #[test]
     fn pieces_of_a_chain_meet_without_an_edge() {
         let [a, b, c] = [chain([0.003, 0.008], 0.0), chain([0.008, 0.01], 0.01), chain([0.01, 0.009], 0.02)];
-        let first = Piece { own: a, before: None, after: Some(b) };
-        let second = Piece { own: b, before: Some(a), after: Some(c) };
+        let first = Piece { own: a, before: None, after: Some(b), lobed: [false; 2] };
+        let second = Piece { own: b, before: Some(a), after: Some(c), lobed: [false; 2] };
         for detail in 1..=3 {
             let columns = usize::from(Lamina::new(detail).columns) + 1;
             let (low, high) = (drawn(&first, detail), drawn(&second, detail));
@@ -178,10 +192,34 @@ mod tests {
 
     #[test]
     fn a_broad_end_is_round_and_notched_and_a_narrow_one_pointed() {
-        let broad = Piece { own: chain([0.012, 0.01], 0.0), before: Some(chain([0.01, 0.012], -0.01)), after: None };
+        let before = Some(chain([0.01, 0.012], -0.01));
+        let broad = Piece { own: chain([0.012, 0.01], 0.0), before, after: None, lobed: [false; 2] };
         let far = |piece: &Piece| drawn(piece, 3).iter().map(|v| v.position()[0]).fold(0.0, f32::max);
         assert!(far(&broad) > 0.0101, "the rim stands beyond the middle");
         let narrow = Piece { own: chain([0.002, 0.001], 0.0), ..broad };
         assert!((far(&narrow) - 0.01).abs() < 1e-6);
+    }
+
+    /// A lobe stands out on the side that has one, and pieces still meet.
+    #[test]
+    fn lobes_stand_out_between_the_ends_of_a_piece() {
+        let own = chain([0.002, 0.002], 0.0);
+        let neighbours = [chain([0.002, 0.002], -0.01), chain([0.002, 0.002], 0.01)].map(Some);
+        let piece = |lobed| Piece { own, before: neighbours[0], after: neighbours[1], lobed };
+        let sides = |lobed| {
+            let drawn = drawn(&piece(lobed), 3);
+            let left = drawn.iter().map(|vertex| vertex.position()[1]);
+            (left.clone().fold(0.0, f32::min), left.fold(0.0, f32::max))
+        };
+        let ((right, left), plain) = (sides([false, true]), 0.002);
+        assert!((right + plain).abs() < 1e-6 && left > 2.5 * plain, "{right} {left}");
+        let both = sides([true, true]);
+        assert!(both.0 < -2.5 * plain && (both.0 + both.1).abs() < 1e-5);
+        let columns = usize::from(Lamina::new(3).columns) + 1;
+        let (low, plain) = (drawn(&piece([true; 2]), 3), drawn(&piece([false; 2]), 3));
+        let ends = |of: &[Vertex]| -> Vec<[f32; 3]> {
+            of[..columns].iter().chain(&of[of.len() - columns..]).map(Vertex::position).collect()
+        };
+        assert_eq!(ends(&low), ends(&plain));
     }
 }

@@ -39,6 +39,7 @@ mod section;
 mod slots;
 mod solid;
 mod stem;
+mod stem_near;
 mod stl;
 #[cfg(test)]
 mod tests;
@@ -48,6 +49,7 @@ mod tests_range;
 mod tests_stated;
 mod texture;
 mod tube;
+mod turned;
 mod welded;
 mod wood;
 

@@ -96,6 +96,9 @@ impl Model {
             }
             Drawn::Prism(prism) => narrowing(of_prism(prism, &unit, &tag)),
             Drawn::Form(shape) => Self::of_shape(shape, 1.0, [colour; 2]),
+            // Instances have no detail.
+            Drawn::Turned(_) => narrowing(of_tube(&Tube::new(8), &unit, &tag)),
+            Drawn::Near(each, _) => Self::of_stem(&each[0], colour),
         }
     }
 

@@ -4,7 +4,6 @@
 //! organ where its species says so. It stands from its birth until its branch falls; one that stands dead has the age
 //! of its death. Absent: tubes that run along several internodes (`reduced`), and organs, which are the scene's.
 
-use super::MeshOptions;
 use super::chunk::{Tag, Vertex};
 use super::colour;
 use super::detail::{Detail, Primitive};
@@ -13,9 +12,11 @@ use super::forms::{FormMesh, Placement};
 use super::lamina::{Lamina, Piece};
 use super::section::{Prism, Ring};
 use super::tube::{Frustum, Strip, Tube};
+use super::turned::{Choice, Turned, leaves_of_nodes};
+use super::{Joints, MeshOptions};
 use phytomer_looks::{Flare, Paints};
 use phytomer_sim::clock::Tick;
-use phytomer_sim::plant::{AxisId, InternodeLook, Kind, NodeId, Plant, Shape as Stem};
+use phytomer_sim::plant::{AxisId, InternodeLook, Kind, NodeId, OrganId, Plant, Shape as Stem};
 use std::ops::Range;
 
 /// The internodes of a plant at an age, ready to be drawn.
@@ -24,13 +25,14 @@ pub struct Stems<'a> {
     pub(super) plant: &'a Plant,
     pub(super) age: Tick,
     kinds: [bool; Kind::ALL.len()],
-    paints: &'a Paints,
+    pub(super) paints: &'a Paints,
     /// The forms by the index of their look in the habit; the last entry is for internodes without a look.
     forms: Vec<Drawn>,
     /// The forms of internodes with a cross section of their own, in the places of the sections.
     sections: Vec<Drawn>,
-    /// The next node of each node's axis; empty where no internode has a section or is a piece of a smooth blade.
-    next: Vec<NodeId>,
+    /// The next node of each node's axis; empty where no internode has a section, is a piece of a smooth blade, or may
+    /// end in a head.
+    pub(super) next: Vec<NodeId>,
     /// What of the plant is drawn; `None`: all.
     pub(super) detail: Option<Detail>,
     /// The form of a segment that is drawn as a line.
@@ -39,9 +41,16 @@ pub struct Stems<'a> {
     pub(super) bark: Option<Bark>,
     /// How the foot of the trunk widens.
     pub(super) flare: Option<Flare>,
+    /// The leaf of each node, where bases of fallen leaves stay; else empty.
+    pub(super) leaves: Vec<Option<OrganId>>,
+    /// The least diameter of an internode that is drawn from near, metres.
+    pub(super) thin: f32,
     /// The options, for the colours that are stated for components; `None` where none are.
     coloured: Option<MeshOptions>,
 }
+
+/// An internode is drawn from near where its diameter is so many times the distance within which it is drawn.
+const FINE: f32 = 12.0;
 
 /// The sides of the tube that stands for a line.
 const OF_A_LINE: u8 = 3;
@@ -59,17 +68,30 @@ pub enum Drawn {
     Prism(Prism),
     /// A form of an organ, with the internode's length and diameter.
     Form(FormMesh),
+    /// A tube from near.
+    Turned(Turned),
+    /// The forms of a look from near, of which an internode has one: as afar, and those of [`Turned::each`].
+    Near(Box<[Self; 4]>, Choice),
 }
 
 impl Drawn {
     fn of(look: &InternodeLook, paints: &Paints, options: &MeshOptions) -> Self {
         let paint = paints.internode(look.paint);
+        let near = paints.near_stem(paint).filter(|_| options.detail > 0 && options.joints != Joints::Welded);
         match (paint.form, look.shape) {
             (Some(form), _) => Self::Form(options.shape(form).clone()),
             (None, Stem::Blade) if options.detail > 0 => Self::Lamina(Lamina::new(options.detail)),
             (None, Stem::Blade) => Self::Strip,
             (None, Stem::Cylinder | Stem::Cone) => {
-                Self::Tube(Tube::new(paint.sides.unwrap_or(options.sides)), paint.sides.is_some())
+                let sides = paint.sides.unwrap_or(options.sides);
+                let tube = Self::Tube(Tube::new(sides), paint.sides.is_some());
+                match near {
+                    Some(near) => {
+                        let [turned, based, headed] = Turned::each(near, sides, options.detail).map(Self::Turned);
+                        Self::Near(Box::new([tube, turned, based, headed]), Choice::of(near))
+                    }
+                    None => tube,
+                }
             }
         }
     }
@@ -83,6 +105,8 @@ impl Drawn {
             Self::Lamina(lamina) => lamina.vertices(),
             Self::Prism(prism) => prism.vertices(),
             Self::Form(shape) => shape.points.len(),
+            Self::Turned(turned) => turned.vertices(),
+            Self::Near(each, _) => each[0].vertices(),
         }
     }
 
@@ -91,7 +115,8 @@ impl Drawn {
         match self {
             Self::Tube(tube, _) => tube.around(),
             Self::Prism(prism) => prism.around(),
-            Self::Strip | Self::Lamina(_) | Self::Form(_) => 0,
+            Self::Turned(turned) => turned.around(),
+            Self::Strip | Self::Lamina(_) | Self::Form(_) | Self::Near(..) => 0,
         }
     }
 
@@ -104,6 +129,8 @@ impl Drawn {
             Self::Lamina(lamina) => lamina.faces(),
             Self::Prism(prism) => prism.faces(),
             Self::Form(shape) => &shape.faces,
+            Self::Turned(turned) => turned.faces(),
+            Self::Near(each, _) => each[0].faces(),
         }
     }
 }
@@ -116,14 +143,22 @@ impl<'a> Stems<'a> {
         let mut forms: Vec<Drawn> = looks.map(|look| Drawn::of(look, paints, options)).collect();
         forms.push(Drawn::Tube(Tube::new(options.sides), false));
         let sections: Vec<Drawn> = paints.sections().iter().map(|section| Drawn::Prism(Prism::new(section))).collect();
-        let laminae = forms.iter().any(|form| matches!(form, Drawn::Lamina(_)));
+        let follows = |form: &Drawn| match form {
+            Drawn::Near(_, choice) => choice.asks_for_cuts(),
+            form => matches!(form, Drawn::Lamina(_)),
+        };
+        let laminae = forms.iter().any(follows);
         let next = if sections.is_empty() && !laminae { Vec::new() } else { next_on_axis(plant) };
         let (detail, line) = (Detail::of(plant, age, options), Drawn::Tube(Tube::new(OF_A_LINE), true));
         let stated = |order| options.bark_m.map(|metres| [metres; 2]).or_else(|| options.own.textures().bark(order));
         let bark = Bark::of(plant, age, stated);
         let flare = options.own.flare().copied();
         let coloured = options.colours.is_some().then(|| options.clone());
-        Self { plant, age, kinds: options.kinds, paints, forms, sections, next, detail, line, bark, flare, coloured }
+        let based = |form: &Drawn| matches!(form, Drawn::Near(_, choice) if choice.asks_for_leaves());
+        let leaves = if forms.iter().any(based) { leaves_of_nodes(plant) } else { Vec::new() };
+        let thin = options.tolerance.map_or(0.0, |tolerance| FINE * tolerance.distance);
+        let kinds = options.kinds;
+        Self { plant, age, kinds, paints, forms, sections, next, detail, line, bark, flare, leaves, thin, coloured }
     }
 
     /// The internodes of a range of nodes that are drawn.
@@ -150,7 +185,11 @@ impl<'a> Stems<'a> {
             return &self.line;
         }
         let place = self.place_of_form(node);
-        self.forms.get(place).unwrap_or_else(|| &self.sections[place - self.forms.len()])
+        match self.forms.get(place) {
+            Some(Drawn::Near(each, choice)) => &each[self.variant(choice, node) as usize],
+            Some(form) => form,
+            None => &self.sections[place - self.forms.len()],
+        }
     }
 
     /// The place of the form of an internode in one list of forms and sections, which a plant keeps as long as it
@@ -188,6 +227,8 @@ impl<'a> Stems<'a> {
             Drawn::Lamina(lamina) => lamina.write(&self.piece(node), &self.tag(node), out),
             Drawn::Prism(prism) => prism.write(self.rings(node), &self.tag(node), out),
             Drawn::Form(shape) => shape.write(&self.stands(node), &[self.tag(node); 2], out),
+            Drawn::Turned(turned) => turned.write(&self.frustum(node), self.to_leaf(node), &self.tag(node), out),
+            Drawn::Near(each, _) => self.write(&each[0], node, out),
         }
         if let Some(bark) = &self.bark {
             bark.dress(self.plant, node, &mut out[..stem.around()]);
@@ -233,6 +274,7 @@ impl<'a> Stems<'a> {
             own: self.frustum(node),
             before: before.map(|node| self.frustum(node)),
             after: after.map(|node| self.frustum(node)),
+            lobed: self.lobed(node),
         }
     }
 

@@ -65,6 +65,11 @@ impl Tube {
         self.reach
     }
 
+    /// For each corner its cosine, sine and share of the way around; the first is repeated at the end.
+    pub fn corners(&self) -> &[[f32; 3]] {
+        &self.corners
+    }
+
     /// How many of them, the first, stand around it; the others are its ends.
     pub fn around(&self) -> usize {
         2 * self.corners.len()

@@ -62,7 +62,8 @@ impl<'a> Body<'a> {
 
     /// An obstacle: a closed mesh in the coordinates of its stand.
     pub fn obstacle(mesh: &Arc<Mesh>) -> Self {
-        let (kept, stuff) = (vec![Arc::clone(mesh)], [Stuff { thin: false, closed: true, pale: 0 }; Kind::ALL.len()]);
+        let (kept, stuff) =
+            (vec![Arc::clone(mesh)], [Stuff { thin: false, closed: true, even: false, pale: 0 }; Kind::ALL.len()]);
         Self { scene: None, colours: None, boxes: Vec::new(), stuff, detail: 0, places: vec![Vec3::ZERO], kept }
             .boxed(1)
     }
@@ -137,7 +138,7 @@ impl<'a> Body<'a> {
             let corners = indices.map(|index| corners[index]);
             let vertices = indices.map(|index| &mesh.vertices[index]);
             let tag = vertices[0].tag();
-            let Stuff { thin, closed, pale } = self.stuff_of(&tag);
+            let Stuff { thin, closed, even, pale } = self.stuff_of(&tag);
             // The far side of a closed surface is never seen. Corners behind the eye are NaN, so the comparison is
             // false.
             if closed && turn(&corners) > 0.0 {
@@ -146,7 +147,7 @@ impl<'a> Body<'a> {
             if painting {
                 film.paint(&corners, window, || {
                     let normals = vertices.map(|vertex| Vec3::from_array(vertex.normal()));
-                    let mut paint = self.paint(&tag, thin, subject);
+                    let mut paint = self.paint(&tag, (thin, even), subject);
                     if pale > 0 && !paint.stained && turn(&corners) > 0.0 {
                         paint.colour = paler(paint.colour, pale);
                     }
@@ -158,12 +159,12 @@ impl<'a> Body<'a> {
         }
     }
 
-    fn paint(&self, tag: &Tag, thin: bool, subject: u8) -> Paint {
+    fn paint(&self, tag: &Tag, (thin, even): (bool, bool), subject: u8) -> Paint {
         let [r, g, b, _] = tag.colour;
         let component = tag.component.unsigned_abs();
         let colour = match &self.colours {
             Some(colours) => colours.get(component as usize).copied().unwrap_or([128; 3]),
-            None if thin => varied([r, g, b], component),
+            None if thin && !even => varied([r, g, b], component),
             None => [r, g, b],
         };
         Paint { colour, thin, stained: self.colours.is_some(), subject }
@@ -188,6 +189,8 @@ pub struct Stuff {
     pub thin: bool,
     /// The far side is never seen: internodes that are tubes and nothing else.
     pub closed: bool,
+    /// Its components do not differ in colour: from near the pieces of a petal are one blade.
+    pub even: bool,
     /// The share of a paler colour that its underside has, of 255; none at detail 0.
     pub pale: u8,
 }
@@ -212,6 +215,7 @@ fn stuff(plant: &Plant, detail: u8) -> [Stuff; Kind::ALL.len()] {
         Stuff {
             thin,
             closed,
+            even: stem && detail > 0,
             pale: if detail > 0 && kind.class() == Class::Leaf { underside(plant, paints) } else { 0 },
         }
     })

@@ -111,7 +111,8 @@ impl<'a> Cast<'a> {
         let set = Set { stands, lights: &lights, camera: *camera, ground, transparent, around: &around };
         let mut canvas = draw::draw(&set, picture.size);
         if picture.caption {
-            self.write_below(&mut canvas, title, camera);
+            let focus = picture.focus.as_ref().map(|focus| focus.middle());
+            self.write_below(&mut canvas, title, camera, focus);
         }
         canvas
     }
@@ -131,12 +132,14 @@ impl<'a> Cast<'a> {
         if self.legend.is_some() { (colouring::WIDTH + 1.0) * size } else { 0.0 }
     }
 
-    fn write_below(&self, canvas: &mut Canvas, title: &str, camera: &Camera) {
+    /// Writes the scale bar, which holds in the middle of an organ in focus or else of the first stand, and the words.
+    fn write_below(&self, canvas: &mut Canvas, title: &str, camera: &Camera, focus: Option<Vec3>) {
         let size = letter_size(canvas.height);
         let (width, height) = (canvas.width as f32, canvas.height as f32);
         let line = height - 1.4 * size;
         let middle = |stand: &PlacedStand| self.held.map_or(stand.offset + stand.middle(), |held| held.middle);
-        let scale = self.stands.first().map_or(1.0, |stand| camera.scale_at(middle(stand)));
+        let held = focus.or_else(|| self.stands.first().map(middle));
+        let scale = held.map_or(1.0, |point| camera.scale_at(point));
         scale_bar(canvas, scale, 0.16 * width, size, [1.6 * size, line]);
         let (title, edge) = (fitting(title, size, 0.78 * width), width - 1.6 * size);
         write(canvas, &title, size, [edge, line], Align::Right);

@@ -101,6 +101,13 @@ impl Focus {
         self.points.iter().copied().map(Vec3::from_array)
     }
 
+    /// The middle of the box around it.
+    pub(super) fn middle(&self) -> Vec3 {
+        let around = |[low, high]: [Vec3; 2], point: Vec3| [low.min(point), high.max(point)];
+        let [low, high] = self.points().fold([Vec3::INFINITY, Vec3::NEG_INFINITY], around);
+        0.5 * (low + high)
+    }
+
     /// The box around it, and around as much of what stands beside it as may be seen.
     pub(super) fn bounds(&self) -> [Vec3; 2] {
         let around = |[low, high]: [Vec3; 2], point: Vec3| [low.min(point), high.max(point)];

@@ -75,6 +75,12 @@ pub struct Flower {
     pub stamens: u8,
     /// The length of a stamen as a share of half the width of the flower, in [0, 1].
     pub stamen: f32,
+    /// Sepals below the petals, in [0, 12].
+    pub sepals: u8,
+    /// The length of a sepal as a share of that of a petal, in [0.05, 1.5].
+    pub sepal: f32,
+    /// The angle between the axis and its sepals, degrees, in [5, 170]; above 90 they are turned back.
+    pub sepal_deg: f32,
 }
 
 impl Default for Flower {
@@ -88,6 +94,9 @@ impl Default for Flower {
             spread_deg: 80.0,
             stamens: 5,
             stamen: 0.3,
+            sepals: 0,
+            sepal: 0.5,
+            sepal_deg: 100.0,
         }
     }
 }

@@ -1,17 +1,21 @@
 //! The forms of the library as settings of the blade and of flowers.
 //!
 //! Outlines are those of the species that the forms are named for in the table of forms. Absent: solids, of which only
-//! the number of sides changes (`phytomer_meshes`), and clusters, which stay as they are.
+//! the number of sides changes (`phytomer_meshes`), and inflorescences, which stay as they are.
 
 use super::Near;
 use super::blade::{Apex, Base, Blade, Margin};
+use super::cluster::Brush;
 use super::head::Flower;
 use crate::FormName;
 
 impl FormName {
     /// How the form is drawn from near; `None`: as a solid that is rounder, or as it is.
     pub fn near(self) -> Option<Near> {
-        blade(self).map(Near::Blade).or_else(|| flower(self).map(Near::Flower))
+        blade(self)
+            .map(Near::Blade)
+            .or_else(|| flower(self).map(Near::Flower))
+            .or_else(|| needles(self).map(Near::Brush))
     }
 }
 
@@ -195,7 +199,37 @@ fn flower(form: FormName) -> Option<Flower> {
             spread_deg: 88.0,
             stamens: 20,
             stamen: 0.5,
+            sepals: 5,
+            sepal: 0.4,
+            sepal_deg: 140.0,
             ..Flower::default()
+        },
+        _ => return None,
+    })
+}
+
+/// The needles of a form that is a piece of shoot: those of a cedar's rosette (20 to 45 in floras), of a fir's shoot of
+/// some centimetres, and three bundles of a pine.
+fn needles(form: FormName) -> Option<Brush> {
+    Some(match form {
+        FormName::Tuft => Brush { needles: 36, ..Brush::default() },
+        FormName::Spray => Brush {
+            needles: 28,
+            shoot: 0.75,
+            first_deg: 72.0,
+            last_deg: 42.0,
+            combed: 0.8,
+            bend_deg: -12.0,
+            ..Brush::default()
+        },
+        FormName::Fascicle => Brush {
+            needles: 6,
+            bundle: 2,
+            shoot: 0.06,
+            first_deg: 26.0,
+            last_deg: 14.0,
+            bend_deg: 14.0,
+            ..Brush::default()
         },
         _ => return None,
     })

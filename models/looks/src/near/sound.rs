@@ -2,10 +2,11 @@
 
 use super::Near;
 use super::blade::Blade;
+use super::cluster::{Brush, Cluster};
 use super::head::{Capitulum, Flower};
 
 /// A number of a setting: its key, its value, and the least and the most that it may be.
-type Bound = (&'static str, f32, [f32; 2]);
+pub(super) type Bound = (&'static str, f32, [f32; 2]);
 
 /// What is wrong with a setting: its keys, what was found and what is expected.
 #[derive(Debug, Clone, PartialEq)]
@@ -23,14 +24,25 @@ impl Near {
     pub fn unsound(&self, aspect: f32) -> Vec<Unsound> {
         match self {
             Self::Blade(blade) => of_blade(blade, aspect, &["blade"]),
-            Self::Flower(flower) => {
-                let mut found = outside(&bounds_of_flower(flower), &["flower"]);
-                found.extend(of_blade(&flower.petal, flower.petal_width, &["flower", "petal"]));
+            Self::Flower(flower) => of_flower(flower, &[]),
+            Self::Capitulum(head) => outside(&bounds_of_head(head), &["capitulum"]),
+            Self::Brush(brush) => outside(&bounds_of_brush(brush), &["brush"]),
+            Self::Cluster(cluster) => {
+                let mut found = outside(&bounds_of_cluster(cluster), &["cluster"]);
+                found.extend(cluster.flower.iter().flat_map(|flower| of_flower(flower, &["cluster"])));
                 found
             }
-            Self::Capitulum(head) => outside(&bounds_of_head(head), &["capitulum"]),
         }
     }
+}
+
+/// What is wrong with a flower, whose table stands below some keys.
+fn of_flower(flower: &Flower, above: &[&'static str]) -> Vec<Unsound> {
+    let keys: Vec<&'static str> = above.iter().copied().chain(["flower"]).collect();
+    let mut found = outside(&bounds_of_flower(flower), &keys);
+    let keys: Vec<&'static str> = keys.into_iter().chain(["petal"]).collect();
+    found.extend(of_blade(&flower.petal, flower.petal_width, &keys));
+    found
 }
 
 fn of_blade(blade: &Blade, aspect: f32, keys: &[&'static str]) -> Vec<Unsound> {
@@ -47,7 +59,7 @@ fn of_blade(blade: &Blade, aspect: f32, keys: &[&'static str]) -> Vec<Unsound> {
 }
 
 /// The numbers that are outside of their bounds. A number that is none is outside of all.
-fn outside(bounds: &[Bound], keys: &[&'static str]) -> Vec<Unsound> {
+pub(super) fn outside(bounds: &[Bound], keys: &[&'static str]) -> Vec<Unsound> {
     let bad = bounds.iter().filter(|(_, value, [least, most])| !(least..=most).contains(&value));
     let told = |&(key, value, [least, most]): &Bound| Unsound {
         keys: keys.iter().copied().chain([key]).collect(),
@@ -83,7 +95,7 @@ fn bounds_of_blade(blade: &Blade) -> [Bound; 21] {
     ]
 }
 
-fn bounds_of_flower(flower: &Flower) -> [Bound; 7] {
+fn bounds_of_flower(flower: &Flower) -> [Bound; 10] {
     [
         ("petals", f32::from(flower.petals), [2.0, 40.0]),
         ("petal_width", flower.petal_width, [0.05, 2.0]),
@@ -92,6 +104,9 @@ fn bounds_of_flower(flower: &Flower) -> [Bound; 7] {
         ("spread_deg", flower.spread_deg, [5.0, 120.0]),
         ("stamens", f32::from(flower.stamens), [0.0, 100.0]),
         ("stamen", flower.stamen, [0.0, 1.0]),
+        ("sepals", f32::from(flower.sepals), [0.0, 12.0]),
+        ("sepal", flower.sepal, [0.05, 1.5]),
+        ("sepal_deg", flower.sepal_deg, [5.0, 170.0]),
     ]
 }
 
@@ -104,6 +119,27 @@ fn bounds_of_head(head: &Capitulum) -> [Bound; 7] {
         ("vault", head.vault, [0.0, 0.5]),
         ("unfolded", head.unfolded, [0.0, 1.0]),
         ("opened", head.opened.unwrap_or(0.0), [0.0, 1.0]),
+    ]
+}
+
+fn bounds_of_brush(brush: &Brush) -> [Bound; 7] {
+    [
+        ("needles", f32::from(brush.needles), [2.0, 300.0]),
+        ("bundle", f32::from(brush.bundle), [1.0, 8.0]),
+        ("shoot", brush.shoot, [0.0, 1.0]),
+        ("first_deg", brush.first_deg, [5.0, 120.0]),
+        ("last_deg", brush.last_deg, [5.0, 120.0]),
+        ("combed", brush.combed, [0.0, 1.0]),
+        ("bend_deg", brush.bend_deg, [-90.0, 90.0]),
+    ]
+}
+
+fn bounds_of_cluster(cluster: &Cluster) -> [Bound; 4] {
+    [
+        ("count", f32::from(cluster.count), [2.0, 60.0]),
+        ("stalk", cluster.stalk, [0.0, 0.9]),
+        ("width", cluster.width, [0.05, 4.0]),
+        ("spread_deg", cluster.spread_deg, [5.0, 170.0]),
     ]
 }
 
@@ -136,6 +172,10 @@ mod tests {
         assert_eq!(of(Blade { fold_deg: 80.0, arch_deg: 280.0, ..Blade::default() }), []);
         let petal = Flower { petal: Blade { claw: 2.0, ..Blade::default() }, ..Flower::default() };
         assert_eq!(Near::Flower(petal).unsound(1.0)[0].keys, ["flower", "petal", "claw"]);
+        let cluster = Cluster { count: 1, flower: Some(petal), ..Cluster::default() };
+        let told: Vec<Vec<&str>> = Near::Cluster(cluster).unsound(1.0).into_iter().map(|told| told.keys).collect();
+        assert_eq!(told, [vec!["cluster", "count"], vec!["cluster", "flower", "petal", "claw"]]);
+        assert_eq!(Near::Brush(Brush { shoot: 2.0, ..Brush::default() }).unsound(1.0)[0].keys, ["brush", "shoot"]);
     }
 
     /// An outline is widest where it says, half its width there, and closed at both ends.

@@ -11,7 +11,7 @@ use crate::buds::params::{
 };
 use crate::fault::{Fault, Path};
 use crate::law::{Law, Quantity, ValueRange, Variate};
-use phytomer_looks::{Colour, InternodePaint, Near, OrganPaint, Paints, own_form};
+use phytomer_looks::{Colour, InternodePaint, Near, OrganPaint, Paints, Unsound, own_form};
 use phytomer_sim::plant::{Class, Form, InternodeLook, Kind, Looks, OrganLook, OrganLooks, PaintNumber, Shape};
 
 const SIDES: std::ops::RangeInclusive<u32> = 3..=64;
@@ -142,6 +142,12 @@ impl Place<'_> {
         if let Some(stated) = &internode.colour {
             for (paint, (bark, path)) in paints.iter_mut().zip(self.spread(stated, &path.key("colour"))) {
                 paint.bark = bark.bark(&path, self.faults);
+            }
+        }
+        if let Some(stated) = &internode.near {
+            for (paint, (near, path)) in paints.iter_mut().zip(self.spread(stated, &path.key("near"))) {
+                self.unsound(near.unsound(), &path);
+                paint.near = self.paints.add_near_stem(near.clone());
             }
         }
         paints
@@ -277,11 +283,16 @@ impl Place<'_> {
     fn near(&mut self, stated: &Option<Near>, key: &str) -> Option<u16> {
         let near = stated.as_ref()?;
         let path = self.path.key(key).key("near");
-        for unsound in near.unsound(0.5) {
-            let path = unsound.keys.iter().fold(path.clone(), |path, key| path.key(key));
-            self.faults.push(Fault::new(&path, unsound.found, unsound.expected));
-        }
+        self.unsound(near.unsound(0.5), &path);
         self.paints.add_near(*near)
+    }
+
+    /// Tells what is wrong with a setting below a path.
+    fn unsound(&mut self, found: Vec<Unsound>, path: &Path) {
+        self.faults.extend(found.into_iter().map(|unsound| {
+            let path = unsound.keys.iter().fold(path.clone(), |path, key| path.key(key));
+            Fault::new(&path, unsound.found, unsound.expected)
+        }));
     }
 
     fn stage(&mut self, stated: &Option<ColourText>, path: &Path, key: &str) -> Option<Colour> {

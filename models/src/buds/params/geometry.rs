@@ -5,7 +5,9 @@
 
 use super::colour::BarkChoice;
 use super::looks::{ByState, FormChoice, KindName};
+use super::near;
 use crate::law::{Constant, Count, Law, Quantity, Variate};
+use phytomer_looks::NearStem;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -45,6 +47,11 @@ pub struct Internode {
     /// an axis can start. Left out: by kind.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub colour: Option<ByState<BarkChoice>>,
+    /// How they are drawn from near, at detail 1 to 3 of a mesh or a picture: swollen nodes, leaf bases, an urn, lobes
+    /// of a sepal. One for all axes, or one for each state in which an axis can start. Left out: as tubes and plain
+    /// blades.
+    #[serde(skip_serializing_if = "Option::is_none", serialize_with = "near::shortest")]
+    pub near: Option<ByState<NearStem>>,
 }
 
 impl Default for Internode {
@@ -59,6 +66,7 @@ impl Default for Internode {
             sides: None,
             form: None,
             colour: None,
+            near: None,
         }
     }
 }

@@ -12,6 +12,7 @@ pub(crate) mod colour;
 mod contact;
 mod geometry;
 mod looks;
+mod near;
 mod organs;
 mod response;
 mod sympodial;

@@ -5,6 +5,7 @@
 
 use super::colour::{FlowerChoice, FruitChoice, LeafChoice};
 use super::looks::{FormChoice, KindName};
+use super::near;
 use crate::law::{Constant, Count, Law, Quantity, Variate};
 use phytomer_looks::{FormName, Near};
 use schemars::JsonSchema;
@@ -88,9 +89,9 @@ pub struct Leaf {
     pub facing: Facing,
     /// The form that it is drawn with: one of the library (`phytomer list forms`), or `{ mesh = "file.ply" }`.
     pub form: FormChoice,
-    /// How it is drawn from near, at detail 1 to 3 of a mesh or a picture: a `blade`, a `flower` or a `capitulum`. Left
-    /// out: as the library has its form.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    /// How it is drawn from near, at detail 1 to 3 of a mesh or a picture: a `blade`, a `flower`, a `capitulum`, a
+    /// `brush` of needles or a `cluster`. Left out: as the library has its form.
+    #[serde(skip_serializing_if = "Option::is_none", serialize_with = "near::shortest")]
     pub near: Option<Near>,
     /// What it is: `leaf`, or another kind that stands as a leaf does: a leaflet, a bract, a scale, a part of a flower.
     #[serde(skip_serializing_if = "KindName::is_leaf")]
@@ -152,9 +153,9 @@ pub struct Flower {
     pub trend: Option<OrganTrend>,
     /// The form that it is drawn with: one of the library (`phytomer list forms`), or `{ mesh = "file.ply" }`.
     pub form: FormChoice,
-    /// How it is drawn from near, at detail 1 to 3 of a mesh or a picture: a `blade`, a `flower` or a `capitulum`. Left
-    /// out: as the library has its form.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    /// How it is drawn from near, at detail 1 to 3 of a mesh or a picture: a `blade`, a `flower`, a `capitulum`, a
+    /// `brush` of needles or a `cluster`. Left out: as the library has its form.
+    #[serde(skip_serializing_if = "Option::is_none", serialize_with = "near::shortest")]
     pub near: Option<Near>,
     /// What it is: `flower`, or an inflorescence or a spikelet.
     #[serde(skip_serializing_if = "KindName::is_flower")]
@@ -205,9 +206,9 @@ pub struct Fruit {
     pub trend: Option<OrganTrend>,
     /// The form that it is drawn with: one of the library (`phytomer list forms`), or `{ mesh = "file.ply" }`.
     pub form: FormChoice,
-    /// How it is drawn from near, at detail 1 to 3 of a mesh or a picture: a `blade`, a `flower` or a `capitulum`. Left
-    /// out: as the library has its form.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    /// How it is drawn from near, at detail 1 to 3 of a mesh or a picture: a `blade`, a `flower`, a `capitulum`, a
+    /// `brush` of needles or a `cluster`. Left out: as the library has its form.
+    #[serde(skip_serializing_if = "Option::is_none", serialize_with = "near::shortest")]
     pub near: Option<Near>,
     /// What it is: `fruit`, or an infructescence or a strobilus.
     #[serde(skip_serializing_if = "KindName::is_fruit")]

@@ -76,7 +76,7 @@ impl Outlines {
             Drawn::Prism(_) => {
                 stems.section_of(node).filter(|section| self.sections.get(*section) == Some(&true)).map(Skin::Section)
             }
-            Drawn::Strip | Drawn::Form(_) | Drawn::Lamina(_) => None,
+            Drawn::Strip | Drawn::Form(_) | Drawn::Lamina(_) | Drawn::Turned(_) | Drawn::Near(..) => None,
         }
     }
 }

@@ -19,6 +19,8 @@ pub const PLAIN: Tint = [0; 4];
 #[derive(Debug, Default)]
 pub struct Build {
     points: Vec<Point>,
+    /// Whether each corner has a normal that is kept.
+    shaped: Vec<bool>,
     faces: Vec<[u32; 3]>,
     /// Whether what is added has the colour of the stalk.
     pub stalk: bool,
@@ -31,12 +33,21 @@ impl Build {
     pub fn corner(&mut self, at: Vector, across: Vector, texture: [f32; 2]) -> u32 {
         let (stalk, tint) = (self.stalk, self.tint);
         self.points.push(Point { at, across, normal: [0.0; 3], texture, stalk, tint });
+        self.shaped.push(false);
+        self.points.len() as u32 - 1
+    }
+
+    /// Adds a corner that keeps its normal and its colours, and returns its number.
+    pub fn shaped(&mut self, point: Point) -> u32 {
+        self.points.push(point);
+        self.shaped.push(true);
         self.points.len() as u32 - 1
     }
 
     /// Adds a corner at the place of another one, for a surface that meets its surface at an edge.
     pub fn again(&mut self, corner: u32) -> u32 {
         self.points.push(self.points[corner as usize]);
+        self.shaped.push(self.shaped[corner as usize]);
         self.points.len() as u32 - 1
     }
 
@@ -91,7 +102,7 @@ impl Build {
         for face in &self.faces {
             let [a, b, c] = face.map(|corner| self.points[corner as usize].at);
             let area = cross(minus(b, a), minus(c, a));
-            for corner in face {
+            for corner in face.iter().filter(|corner| !self.shaped[**corner as usize]) {
                 let normal = &mut self.points[*corner as usize].normal;
                 (0..3).for_each(|k| normal[k] += area[k]);
             }

@@ -1,17 +1,21 @@
 //! A flower of petals around the mouth of a tube, or around a receptacle on a stalk, with its stamens.
 //!
 //! Petals are blades. Each is turned a little about its own axis, so that one edge lies over the next petal and the
-//! other below the one before (contorted, as in a phlox). Absent: heads of many florets (`capitulum`).
+//! other below the one before (contorted, as in a phlox). Where petals that touch narrow to the mouth, a funnel closes
+//! it. Absent: heads of many florets (`capitulum`).
 
 use super::super::{Depth, FormMesh};
 use super::build::{Build, Vector, sum};
 use super::sheet::{self, Place};
-use phytomer_looks::Flower;
+use phytomer_looks::{Apex, Base, Blade, Flower};
 use phytomer_sim::math::sincosf;
 use std::f32::consts::TAU;
 
 /// The colour of anthers, and how far it covers that of the flower.
 const ANTHER: [u8; 4] = [226, 178, 60, 255];
+
+/// The colour of sepals, and its share of 255.
+const SEPAL: [u8; 4] = [122, 150, 82, 255];
 
 /// How far a petal is turned about its own axis, radians.
 const CONTORTED: f32 = 0.09;
@@ -23,6 +27,8 @@ pub fn flower(flower: &Flower, aspect: f32, detail: u8) -> FormMesh {
     tube(&mut build, flower, mouth, detail);
     let (sin, cos) = sincosf(flower.spread_deg.to_radians());
     let length = (0.5 * aspect - mouth) / sin.max(0.1);
+    throat(&mut build, flower, (mouth, length), ([sin, cos], detail));
+    sepals(&mut build, flower, (mouth, length), detail);
     for petal in 0..flower.petals {
         let out = around(f32::from(petal) / f32::from(flower.petals));
         let place = petal_at([flower.tube, mouth], out, [sin, cos], length, flower.petal_width);
@@ -55,6 +61,58 @@ pub fn petal_at([along, ring]: [f32; 2], out: Vector, [sin, cos]: [f32; 2], leng
         width: width * length,
         phase: 0.0,
     }
+}
+
+/// The funnel from the mouth to where the edges of neighbouring petals meet: below that they are one.
+fn throat(build: &mut Build, flower: &Flower, (mouth, length): (f32, f32), ([sin, cos], detail): ([f32; 2], u8)) {
+    let half_turn = std::f32::consts::PI / f32::from(flower.petals);
+    let (turn_sin, turn_cos) = sincosf(half_turn);
+    let meets = |u: &f32| {
+        let out = mouth + u * length * sin;
+        flower.petal.rim(*u).aside * flower.petal_width * length * turn_cos >= out * turn_sin
+    };
+    let Some(meet) = (1..=20).map(|k| 0.02 * k as f32).find(meets) else { return };
+    let sides = u16::from(flower.petals) * [1, 2, 3, 5][usize::from(detail.min(3))];
+    let mut before: Vec<u32> = Vec::new();
+    for share in [0.0, 0.5, 1.0, 1.5] {
+        // A little below the petals, which lie on it.
+        let along = flower.tube + share * meet * length * cos - 0.012 * share;
+        let out = mouth * 0.98 + share * meet * length * sin;
+        let ring: Vec<u32> = (0..=sides)
+            .map(|side| {
+                let turn = f32::from(side % sides) / f32::from(sides);
+                let across = sum(&[(out, around(turn))]);
+                build.corner([along, across[1], across[2]], across, [0.5, share * meet])
+            })
+            .collect();
+        for (from, to) in before.windows(2).zip(ring.windows(2)) {
+            build.quad([from[0], to[0], to[1], from[1]]);
+        }
+        before = ring;
+    }
+}
+
+/// The sepals, between the petals and below them.
+fn sepals(build: &mut Build, flower: &Flower, (mouth, length): (f32, f32), detail: u8) {
+    let sepal = Blade {
+        stalk: 0.0,
+        widest_at: 0.3,
+        base: Base::Truncate,
+        apex: Apex::Acute,
+        fold_deg: 0.0,
+        cup: 0.2,
+        veins: 0,
+        arch_deg: 0.0,
+        ..Blade::default()
+    };
+    let (sin, cos) = sincosf(flower.sepal_deg.to_radians());
+    build.tint = SEPAL;
+    for number in 0..flower.sepals {
+        let out = around((f32::from(number) + 0.5) / f32::from(flower.sepals));
+        let place = petal_at([flower.tube - 0.02, mouth], out, [sin, cos], flower.sepal * length, 0.45);
+        sheet::blade(build, &sepal, &place, detail.saturating_sub(1).max(1));
+    }
+    build.tint = super::build::PLAIN;
 }
 
 /// The tube, as wide at its mouth as the ring of petals.

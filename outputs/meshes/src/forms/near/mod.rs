@@ -2,12 +2,15 @@
 //!
 //! A blade that bends or is folded looks right in its own proportions alone, so a form is made for a class of width
 //! over length, in steps of √2, when it is first asked for. An organ is fitted to its area as at detail 0, so that it
-//! has the area of the tables. What has no settings is a solid that becomes rounder, or a cluster that stays as it is.
+//! has the area of the tables. What has no settings is a solid that becomes rounder, or an inflorescence that
+//! stays as it is.
 //! Absent: which detail an organ has in a picture (`crate::scene`).
 
 mod area;
+mod brush;
 mod build;
 mod capitulum;
+mod cluster;
 mod flower;
 mod leaf;
 mod rounder;
@@ -117,6 +120,8 @@ fn made(near: &Near, aspect: f32, detail: u8) -> FormMesh {
         Near::Blade(blade) => leaf::leaf(blade, aspect, detail),
         Near::Flower(flower) => flower::flower(flower, aspect, detail),
         Near::Capitulum(head) => capitulum::capitulum(head, aspect, detail),
+        Near::Brush(needles) => brush::brush(needles, aspect, detail),
+        Near::Cluster(parts) => cluster::cluster(parts, aspect, detail),
     };
     let fits = |form: &FormMesh| form.points.len() <= MOST_CORNERS;
     let found = (1..=detail).rev().map(at).find(fits);
