@@ -32,12 +32,12 @@ impl Wood {
             (Joints::Welded, tolerance) => Self::Welded(Welded::of(stems, tolerance.as_ref())),
             (Joints::Collar, tolerance) => {
                 let (collars, open) = (Welded::collars(stems), Self::open(stems, tolerance.as_ref()));
-                let beside = Welded::flare(stems).unwrap_or_default();
+                let beside = Welded::flare(stems, tolerance.as_ref()).unwrap_or_default();
                 Self::Collared(Box::new(open), collars.with(beside))
             }
             (Joints::Open, tolerance) => {
                 let open = Self::open(stems, tolerance.as_ref());
-                match Welded::flare(stems) {
+                match Welded::flare(stems, tolerance.as_ref()) {
                     Some(flare) => Self::Collared(Box::new(open), flare),
                     None => open,
                 }

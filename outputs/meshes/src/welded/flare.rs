@@ -14,6 +14,8 @@ const STRETCHES: u32 = 10;
 /// The corners of a ring for each lobe, and the least of a ring.
 const OF_A_LOBE: u32 = 10;
 const LEAST: u32 = 24;
+/// How far a body around a trunk goes into it, in radii.
+const INTO: f64 = 0.1;
 /// The most of the length of a trunk that its flare takes.
 const MOST: f64 = 0.5;
 
@@ -52,6 +54,12 @@ pub fn flared(flare: &Flare, stations: Vec<Station>, outlines: &mut Outlines) ->
     }
     found.extend(course.stations().iter().filter(|station| station.z > end + apart));
     (found, end)
+}
+
+/// The ring with which a body around a trunk ends: within the trunk, so that the edge of its end is not seen.
+pub fn within(last: &Station, course: &Course) -> Station {
+    let z = (last.z + INTO * last.radius).min(course.ends()[1]);
+    Station { z, at: course.line(z), radius: (1.0 - INTO) * last.radius, ..*last }
 }
 
 /// The outline of a ring at a share of the height of a flare around a polygon, and its mean reach, in radii of the

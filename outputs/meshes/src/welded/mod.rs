@@ -87,21 +87,20 @@ impl Welded {
         stand.welded()
     }
 
-    /// The flare around the foot of the trunk, for wood that is drawn by itself; `None` where there is none.
-    pub fn flare(stems: &Stems) -> Option<Self> {
+    /// The flare around the foot of a trunk beside open wood; `None` where there is none. It ends within the trunk.
+    pub fn flare(stems: &Stems, tolerance: Option<&Tolerance>) -> Option<Self> {
         stems.flare.as_ref()?;
         let mut stand = Stand::of(stems);
-        if stand.limbs.len() == 0 {
-            return None;
-        }
+        (stand.limbs.len() > 0).then_some(())?;
         let mut skin = Skin::of(stand.limbs.len(), stems.bark.is_some());
         stand.courses.resize_with(stand.limbs.len(), || None);
-        let mut course = stand.course(0, None);
+        let mut course = stand.course(0, tolerance);
         let foot = course.stations().iter().filter(|station| station.z <= stand.flare_ends);
-        let foot: Vec<Station> = foot.copied().collect();
+        let mut foot: Vec<Station> = foot.copied().collect();
         if foot.len() < 2 {
             return None;
         }
+        foot.extend(foot.last().map(|last| flare::within(last, &course)));
         course = Course::through(foot, false);
         let up = stems.frustum(stand.limbs.limb(0).0[0]).up;
         course.turn(DVec3::from_array(up.map(f64::from)));
