@@ -3,9 +3,9 @@
 //!
 //! The stand is 25 crowns of leaves, 650,000 voxels in bricks, of which 411,000 have leaves. With `PHYTOMER_PAIRS=3`,
 //! `cargo bench --bench light -- ratios` tells what light costs whole stands: a tick of a hundred poplars, ten thousand
-//! coffee trees to four years, and the same stand by one thread and by two. `cargo bench --bench light -- obstacles` tells
-//! what obstacles and stems cost such a tick of poplars in light; `PHYTOMER_TREES` of them, 100 if not stated. Absent:
-//! runs with tables.
+//! coffee trees to four years, and the same stand by one thread and by two. `cargo bench --bench light -- obstacles`
+//! tells what obstacles and stems cost such a tick of poplars in light; `PHYTOMER_TREES` of them, 100 if not stated.
+//! Absent: runs with tables.
 
 #[path = "specimen/met.rs"]
 mod met;

@@ -32,7 +32,7 @@ pub(super) struct OfPlant {
     pub(super) about: Bounds,
     /// Where they are, once a bud has asked.
     pub(super) cells: OnceLock<Cells>,
-    /// The places of the other plants whose boxes are nearer than [`ASIDE`], once a bud has asked.
+    /// The places of the other plants whose boxes are near, once a bud has asked.
     pub(super) beside: OnceLock<Vec<u32>>,
     /// The nodes whose stems are to be entered anew, with what was entered.
     pub(super) changed: Vec<(u32, Stem)>,

@@ -114,14 +114,24 @@ fn what_is_near_is_what_asking_each_stem_finds() {
         (0..240).map(stem).collect()
     };
     let plants: Vec<OfPlant> =
-        (0..9).map(|k| of_plant(k, [f64::from(k % 3), f64::from(k / 3), 0.0], &some(k as usize))).collect();
-    let mut found = 0;
+        (0..16).map(|k| of_plant(k, [f64::from(k % 4), f64::from(k / 4), 0.0], &some(k as usize))).collect();
+    let (mut found, mut by_list, mut by_tree) = (0, 0, 0);
     for whose in [Whose::Neighbours, Whose::All] {
         let all = stems(plants.clone(), whose);
         for asked in 0..300_u32 {
             let [x, y, z] = [7, 11, 13].map(|prime| f64::from(asked * prime % 97) / 97.0);
-            let (point, reach) = ([3.2 * x, 3.2 * y, z], 0.02 + 0.2 * z);
-            let spared = Spared { plant: asked % 9, axis: asked % 240 };
+            let spared = Spared { plant: asked % 16, axis: asked % 240 };
+            // Every other one asks about its own plant, the others anywhere; one of them about a place far beyond all.
+            let own = plants[spared.plant as usize].place;
+            let about_own = [own[0] + 1.4 * x - 0.2, own[1] + 1.4 * y - 0.2, z];
+            let point = if asked % 2 == 0 { about_own } else { [4.2 * x, 4.2 * y, if asked == 7 { 9.0 } else { z }] };
+            let reach = 0.02 + if asked % 5 == 0 { 0.8 } else { 0.2 } * z;
+            let box_of_own = all.plants[spared.plant as usize].about.with_margin(ASIDE - reach - ROUNDING);
+            if box_of_own.holds(point) {
+                by_list += 1
+            } else {
+                by_tree += 1
+            }
             let mut near = Vec::new();
             all.each_near(point, reach, spared, &mut |plant, stem| near.push((plant.number, stem.axis)));
             near.sort_unstable();
@@ -144,7 +154,7 @@ fn what_is_near_is_what_asking_each_stem_finds() {
             found += near.len();
         }
     }
-    assert!(found > 2000, "{found}");
+    assert!(found > 2000 && by_list > 150 && by_tree > 150, "{found} {by_list} {by_tree}");
 }
 
 /// A cone of 10 cm and 30° before an upright stem of 1 cm radius, whose bark is to be felt where the middle of a ball
