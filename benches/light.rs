@@ -3,20 +3,29 @@
 //!
 //! The stand is 25 crowns of leaves, 650,000 voxels in bricks, of which 411,000 have leaves. With `PHYTOMER_PAIRS=3`,
 //! `cargo bench --bench light -- ratios` tells what light costs whole stands: a tick of a hundred poplars, ten thousand
-//! coffee trees to four years, and the same stand by one thread and by two. Absent: runs with tables.
+//! coffee trees to four years, and the same stand by one thread and by two. `cargo bench --bench light -- obstacles`
+//! tells what obstacles and stems cost such a tick of poplars in light; `PHYTOMER_TREES` of them, 100 if not stated.
+//! Absent: runs with tables.
 
+#[path = "specimen/met.rs"]
+mod met;
 #[path = "specimen/turns.rs"]
 mod turns;
 
 use criterion::{Criterion, SamplingMode, Throughput, criterion_group, criterion_main};
+use met::{Met, blocks, solid};
 use phytomer::config::{Resolved, validate};
 use phytomer::run::seed_of;
-use phytomer::sim::math::exp;
+use phytomer::sim::math::{cos, exp, sin};
+use phytomer::sim::shape::{Mesh, Point, Shape};
 use phytomer::sim::site::light::grid::{Grid, UNITS};
 use phytomer::sim::site::light::{Field, Light, Lighting, Piece, Sky};
+use phytomer::sim::site::stems::Whose;
 use phytomer::sim::{Plot, Sowing, Tick, grow};
 use std::cell::RefCell;
+use std::f64::consts::{PI, TAU};
 use std::hint::black_box;
+use std::sync::Arc;
 use std::time::{Duration, Instant};
 use turns::by_turns;
 
@@ -89,11 +98,22 @@ fn species(name: &str) -> Resolved {
     validate(name).unwrap_or_else(|report| panic!("{}", report.render(false)))
 }
 
+fn stated(name: &str) -> Option<u32> {
+    std::env::var(name).ok()?.parse().ok()
+}
+
+/// Whether the words behind `--` name no bench, or this one.
+fn is_asked(name: &str) -> bool {
+    let words: Vec<String> = std::env::args().skip(1).filter(|word| !word.starts_with('-')).collect();
+    words.is_empty() || words.iter().any(|word| word == name)
+}
+
 /// The ratios of whole stands, where `PHYTOMER_PAIRS` states how often; `PHYTOMER_TREES` coffee trees, 10,000 if not
 /// stated.
 fn ratios(_: &mut Criterion) {
-    let stated = |name: &str| std::env::var(name).ok().and_then(|number| number.parse::<u32>().ok());
-    let Some(pairs) = stated("PHYTOMER_PAIRS").map(|pairs| pairs as usize) else { return };
+    let Some(pairs) = stated("PHYTOMER_PAIRS").map(|pairs| pairs as usize).filter(|_| is_asked("ratios")) else {
+        return;
+    };
     a_pass(pairs);
     a_tick_of_poplars(pairs);
     coffee_trees(pairs, stated("PHYTOMER_TREES").unwrap_or(10_000));
@@ -123,11 +143,16 @@ fn a_pass(pairs: usize) {
     );
 }
 
+/// The tick at which a poplar comes to 10⁵ components.
+fn tick_of_large_poplars(poplar: &Resolved) -> Tick {
+    let large_at = |tick: &Tick| components(&grown(sown(poplar, (1, 4.0), None), *tick)) >= 100_000;
+    (5..60).find(large_at).expect("a poplar of 100,000 components")
+}
+
 /// The last tick of a hundred poplars of 10⁵ components, in voxels of 0.5 m, with its light and without.
 fn a_tick_of_poplars(pairs: usize) {
     let poplar = species("poplar");
-    let large_at = |tick: &Tick| components(&grown(sown(&poplar, (1, 4.0), None), *tick)) >= 100_000;
-    let until = (5..60).find(large_at).expect("a poplar of 100,000 components");
+    let until = tick_of_large_poplars(&poplar);
     let before = grown(sown(&poplar, (100, 4.0), Some(0.5)), until - 1);
     let plot: RefCell<Plot> = RefCell::new(before.clone());
     let tick = |lit: bool| {
@@ -142,6 +167,79 @@ fn a_tick_of_poplars(pairs: usize) {
     let name = format!("light: tick {until} of 100 poplars with light over the same without (aim: 1 / .7 = 1.43)");
     by_turns(&name, pairs, || _ = plot.replace(before.clone()), || tick(true), || tick(false));
     println!("light: those poplars have {} components", components(&plot.borrow()));
+}
+
+/// What obstacles take of the last tick of a hundred poplars of 10⁵ components in light, in voxels of 0.5 m.
+fn obstacles(_: &mut Criterion) {
+    let Some(pairs) = stated("PHYTOMER_PAIRS").map(|pairs| pairs as usize).filter(|_| is_asked("obstacles")) else {
+        return;
+    };
+    let (poplar, trees) = (species("poplar"), stated("PHYTOMER_TREES").unwrap_or(100));
+    let until = tick_of_large_poplars(&poplar);
+    let stand = |met: &Met| {
+        let mut plot = sown(&poplar, (trees, 4.0), Some(0.5));
+        met.lie_on(&mut plot);
+        grown(plot, until - 1)
+    };
+    let open = stand(&Met::default());
+    let plots: RefCell<[Plot; 2]> = RefCell::new([open.clone(), open.clone()]);
+    let tick = |side: usize| {
+        let plot = &mut plots.borrow_mut()[side];
+        plot.site.begin(until);
+        plot.grow_to(until).expect("room to grow");
+        plot.stand(until);
+    };
+    for (name, met) in cases() {
+        let among = stand(&met);
+        let before = || _ = plots.replace([among.clone(), open.clone()]);
+        let name =
+            format!("obstacles: tick {until} of {trees} poplars in light, {name}, over the open (aim: 1 / .75 = 1.33)");
+        by_turns(&name, pairs, before, || tick(0), || tick(1));
+        let [among, open] = &*plots.borrow();
+        println!("  {} components, {} in the open", components(among), components(open));
+    }
+}
+
+/// What the poplars meet, 4 m apart: all of it stands among them.
+fn cases() -> [(&'static str, Met); 5] {
+    let ground = Met { ground: Some(0.0), ..Met::default() };
+    let between = |k: u32| {
+        let aside = [2.0, 0.0][k as usize / 100];
+        blocks([f64::from(k % 10) * 4.0 + 1.6, f64::from(k / 10 % 10) * 4.0 - 0.4 + aside, 0.0], [0.8, 0.8, 2.0])
+    };
+    let house = |row: u32| blocks([-2.0, f64::from(row) * 4.0 + 1.2, 0.0], [40.0, 1.6, 6.0]);
+    let globes = [[6.0, 6.0, 1.5], [14.0, 14.0, 1.5], [22.0, 22.0, 1.5]].map(|middle| solid(globe(middle)));
+    let stems = |stems| Met { stems, ..Met::default() };
+    [
+        ("on solid ground with 200 boxes", Met { obstacles: (0..200).map(between).collect(), ..ground.clone() }),
+        ("between rows of houses", Met { obstacles: (0..10).map(house).collect(), ..ground.clone() }),
+        ("with three meshes of 1,984 triangles", Met { obstacles: globes.into(), ..ground }),
+        ("and the stems of neighbours", stems(Whose::Neighbours)),
+        ("and all stems", stems(Whose::All)),
+    ]
+}
+
+/// A closed mesh about a ball of 1.2 m radius.
+fn globe(middle: Point) -> Shape {
+    let (rings, around) = (32, 32_u32);
+    let at = |ring: u32, k: u32| {
+        let (down, turn) = (PI * f64::from(ring) / f64::from(rings), TAU * f64::from(k) / f64::from(around));
+        let [level, high] = [sin(down), cos(down)].map(|of| 1.2 * of);
+        [middle[0] + level * cos(turn), middle[1] + level * sin(turn), middle[2] + high]
+    };
+    let mut points = vec![at(0, 0), at(rings, 0)];
+    points.extend((1..rings).flat_map(|ring| (0..around).map(move |k| (ring, k))).map(|(ring, k)| at(ring, k)));
+    let place = |ring: u32, k: u32| match ring {
+        0 => 0,
+        ring if ring == rings => 1,
+        ring => 2 + (ring - 1) * around + k % around,
+    };
+    let mut faces = Vec::new();
+    for (ring, k) in (0..rings).flat_map(|ring| (0..around).map(move |k| (ring, k))) {
+        let [a, b, c, d] = [(ring, k), (ring + 1, k), (ring + 1, k + 1), (ring, k + 1)].map(|(ring, k)| place(ring, k));
+        faces.extend([[a, b, c], [a, c, d]].into_iter().filter(|[a, b, c]| a != b && b != c && a != c));
+    }
+    Shape::Mesh(Arc::new(Mesh::of(&points, &faces).expect("a closed mesh")))
 }
 
 /// Coffee trees 2.5 m apart to four years.
@@ -177,5 +275,5 @@ fn filled(grid: &Grid) -> usize {
     grid.area.iter().filter(|units| **units > 0).count()
 }
 
-criterion_group!(benches, light, ratios);
+criterion_group!(benches, light, ratios, obstacles);
 criterion_main!(benches);

@@ -6,31 +6,17 @@
 //! Plants that meet something are other plants, so the number of their components is told beside the ratios. Absent: a
 //! site without feedback, whose plants grow ahead and need no tick.
 
+#[path = "specimen/met.rs"]
+mod met;
 #[path = "specimen/turns.rs"]
 mod turns;
 
+use met::{Met, blocks};
 use phytomer::config::{Resolved, validate};
 use phytomer::run::seed_of;
-use phytomer::sim::shape::{Cuboid, Shape};
 use phytomer::sim::site::stems::Whose;
-use phytomer::sim::site::{Manner, Obstacle, Side};
 use phytomer::sim::{Plot, Sowing, Tick};
 use std::cell::Cell;
-use std::sync::Arc;
-
-fn blocks(low: [f64; 3], size: [f64; 3]) -> Obstacle {
-    let high = [0, 1, 2].map(|k| low[k] + size[k]);
-    let shape = Arc::new(Shape::Cuboid(Cuboid { low, high }));
-    Obstacle { shape, kills: Side::Inside, manner: Manner::Blocks { holds: true } }
-}
-
-/// What plants of a plot meet.
-#[derive(Clone, Default)]
-struct Met {
-    obstacles: Vec<Obstacle>,
-    ground: Option<f64>,
-    stems: Whose,
-}
 
 /// Twelve plants in three rows, on the ground or before a wall.
 fn sown<'a>(resolved: &'a Resolved, met: &Met, [between, rows]: [f64; 2]) -> Plot<'a> {
@@ -39,8 +25,7 @@ fn sown<'a>(resolved: &'a Resolved, met: &Met, [between, rows]: [f64; 2]) -> Plo
         Sowing { species: 0, seed: seed_of(&resolved.scenario, plant), place, sown: 0 }
     };
     let mut plot = Plot::new(0, vec![resolved.model.as_ref()], &(0..12).map(sowing).collect::<Vec<_>>());
-    let Met { obstacles, ground, stems } = met.clone();
-    (plot.site.obstacles, plot.site.ground, plot.site.whose_stems) = (obstacles, ground, stems);
+    met.lie_on(&mut plot);
     plot
 }
 

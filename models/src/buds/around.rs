@@ -83,7 +83,7 @@ impl<'a> Around<'a> {
         let spared = Spared { plant: plant.id, axis: axis.0 };
         let (beside, ahead, free, grown, felt, stuck) = (Beside::default(), None, 0.0, 0.0, None, false);
         let mut around = Self { solids, stems, beside, spared, laws, place, posed, ahead, free, grown, felt, stuck };
-        around.free = around.free_about(posed.1, 0.0);
+        around.free = if solids.is_empty() { f64::INFINITY } else { around.free_about(posed.1, 0.0) };
         around
     }
 
@@ -126,9 +126,15 @@ impl<'a> Around<'a> {
 
     /// Whether no stem is within `reach` of the tip; those that are, and some that are not, are known then. What the
     /// bud has felt turns its next internode wherever some stem is known.
-    fn is_far_from_stems(&mut self, reach: f64) -> bool {
-        let (tip, more) = (self.tip(), if self.ahead.is_none() { self.grown } else { 0.0 });
+    fn is_far_from_stems(&mut self, plant: &Plant, reach: f64) -> bool {
         let Some(stems) = self.stems else { return true };
+        // A long growth unit is followed to its tip: the ball about its start would hold most of the plant. Buds that
+        // feel or look around keep to the ball, since what they know depends on it.
+        let alone = self.laws.cone.length == 0.0 && self.laws.answer != Answer::Fasten;
+        if alone && self.ahead.is_none() && self.grown > reach {
+            self.end(plant);
+        }
+        let (tip, more) = (self.tip(), if self.ahead.is_none() { self.grown } else { 0.0 });
         let reach = reach + more;
         // A climber looks for what it holds to wherever some stem is known. Rounding is far less than the clearance.
         let looks = self.felt.is_some() || self.laws.answer == Answer::Fasten;
@@ -147,7 +153,7 @@ impl<'a> Around<'a> {
     pub fn feel(&mut self, plant: &Plant) -> bool {
         (self.felt, self.stuck) = (None, false);
         let reach = self.laws.cone.length.max(self.held());
-        let (far, far_from_stems) = (self.is_far(plant, reach), reach == 0.0 || self.is_far_from_stems(reach));
+        let (far, far_from_stems) = (self.is_far(plant, reach), reach == 0.0 || self.is_far_from_stems(plant, reach));
         if far && far_from_stems {
             return false;
         }
@@ -184,7 +190,7 @@ impl<'a> Around<'a> {
         let Next { length, radius, trend, left } = next;
         let axis = AxisId(self.spared.axis);
         let reach = length + radius + self.held().max(CLEARANCE);
-        let (far, far_from_stems) = (self.is_far(plant, reach), self.is_far_from_stems(reach));
+        let (far, far_from_stems) = (self.is_far(plant, reach), self.is_far_from_stems(plant, reach));
         self.free -= length;
         if far && far_from_stems {
             match &mut self.ahead {

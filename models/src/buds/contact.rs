@@ -12,6 +12,7 @@ use super::around::{Around, Lie, Next};
 use super::bud::ApicalBud;
 use super::compile::BudModel;
 use super::grow::{Axis, Full};
+use super::node::Drawn;
 use super::params::{Answer, ApexEnd};
 use phytomer_sim::plant::{ApexFate, EventKind, NodeId, OrganId, Plant, Rest};
 use phytomer_sim::site::Site;
@@ -51,15 +52,13 @@ impl<'a> Axis<'a> {
         }
     }
 
-    /// How the next node lies, of the type `short`, at `rank` of its growth unit; `None` where there is no way for it.
+    /// How the next internode lies; `None` where there is no way for it.
     #[inline]
-    pub(super) fn lie(&mut self, rank: u32, short: bool) -> Option<Lie> {
+    pub(super) fn lie(&mut self, drawn: &Drawn) -> Option<Lie> {
         let Some(site) = self.met else { return Some(Lie::Free) };
-        let at = self.at(rank);
-        let (length, trend) = self.next_internode(at, short);
         let left = self.plant.axes.key[self.bud.axis.index()].0 & 1 == 1;
-        let radius = 0.5 * f64::from(self.next_diameter(at));
-        let next = Next { length: f64::from(length), radius, trend, left };
+        let radius = 0.5 * f64::from(drawn.diameter);
+        let next = Next { length: f64::from(drawn.length), radius, trend: drawn.trend, left };
         let plant = &*self.plant;
         let around = self.around.get_or_insert_with(|| around(site, self.model, plant, self.bud));
         around.try_next(plant, next)

@@ -294,8 +294,9 @@ impl<'a> Axis<'a> {
         let mut made = 0;
         for rank in 1..=nodes {
             self.read_node();
-            let Some(lie) = self.lie(rank, short) else { break };
-            self.node(rank, nodes, (short, rank > preformed), lie)?;
+            let drawn = self.draw_internode(rank, [short, rank > preformed]);
+            let Some(lie) = self.lie(&drawn) else { break };
+            self.node(drawn, nodes, lie)?;
             made = rank;
         }
         if self.is_stuck() && made == 0 {

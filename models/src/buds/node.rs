@@ -27,18 +27,28 @@ struct AxillaryBuds {
     spacing: f32,
 }
 
+/// An internode as it is drawn, before it is made.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Drawn {
+    /// Its rank in its growth unit.
+    pub rank: u32,
+    /// Whether its growth unit is short.
+    pub short: bool,
+    pub neoformed: bool,
+    /// Its length, metres.
+    pub length: f32,
+    /// Its diameter at its birth, metres.
+    pub diameter: f32,
+    /// The trend that it names.
+    pub trend: u8,
+}
+
 impl Axis<'_> {
-    /// Adds a node of the given rank to a growth unit of `nodes` nodes.
-    pub(super) fn node(
-        &mut self,
-        rank: u32,
-        nodes: u32,
-        (short, neoformed): (bool, bool),
-        lie: Lie,
-    ) -> Result<(), Full> {
-        let at = self.at(rank);
+    /// Adds a node to a growth unit of `nodes` nodes.
+    pub(super) fn node(&mut self, drawn: Drawn, nodes: u32, lie: Lie) -> Result<(), Full> {
+        let rank = drawn.rank;
         let azimuth = self.bud.azimuth;
-        let node = self.internode(rank, short, neoformed, at);
+        let node = self.internode(drawn);
         self.turn(node, lie);
         let buds = if self.laws.node.is_bare {
             self.bud.dormant = 0;
@@ -72,26 +82,20 @@ impl Axis<'_> {
         buds
     }
 
-    /// The length of the next internode, metres, and the trend that it names.
+    /// Draws the next internode, of this rank in its growth unit.
     #[inline]
-    pub(super) fn next_internode(&self, at: At, short: bool) -> (f32, u8) {
-        let laws = &self.laws.node;
+    pub(super) fn draw_internode(&self, rank: u32, [short, neoformed]: [bool; 2]) -> Drawn {
+        let (laws, words, at) = (&self.laws.node, &self.words.on_node, self.at(rank));
         let length = if short { &laws.short_length } else { &laws.long_length };
         let trend = self.laws.head.trends.at(self.bud.rank + 1, self.bud.state, &self.words.trends);
-        (length.draw(&self.words.on_node, 0, at), trend)
+        let (length, diameter) = (length.draw(words, 0, at), laws.diameter.draw(words, 0, at));
+        Drawn { rank, short, neoformed, length, diameter, trend }
     }
 
-    /// The diameter of the next internode at its birth, metres.
     #[inline]
-    pub(super) fn next_diameter(&self, at: At) -> f32 {
-        self.laws.node.diameter.draw(&self.words.on_node, 0, at)
-    }
-
-    fn internode(&mut self, rank: u32, short: bool, neoformed: bool, at: At) -> NodeId {
-        let (length, trend) = self.next_internode(at, short);
-        let diameter = self.next_diameter(at);
-        let laws = &self.laws.node;
-        let words = &self.words.on_node;
+    fn internode(&mut self, drawn: Drawn) -> NodeId {
+        let Drawn { rank, short, neoformed, length, diameter, trend } = drawn;
+        let at = self.at(rank);
         let along = self.bud.rank + 1;
         let new = NewNode {
             parent: self.bud.last_node,
@@ -106,7 +110,7 @@ impl Axis<'_> {
             diameter,
             azimuth: self.bud.azimuth,
         };
-        self.bud.azimuth = turned(self.bud.azimuth, laws.divergence.draw(words, 0, at));
+        self.bud.azimuth = turned(self.bud.azimuth, self.laws.node.divergence.draw(&self.words.on_node, 0, at));
         self.bud.rank = along;
         self.bud.passages = 0;
         self.bud.last_node = self.plant.add_node(new);

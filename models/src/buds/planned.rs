@@ -92,7 +92,8 @@ impl Axis<'_> {
                 }
                 let rank = piece.rank(node);
                 self.read_node();
-                self.node(rank, piece.unit_nodes, (piece.short, rank > piece.preformed), Lie::Free)?;
+                let drawn = self.draw_internode(rank, [piece.short, rank > piece.preformed]);
+                self.node(drawn, piece.unit_nodes, Lie::Free)?;
             }
         }
         self.plant.events.as_mut().into_iter().for_each(|all| all.extend(events.by_ref().map(|(_, event)| *event)));

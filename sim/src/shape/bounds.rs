@@ -13,6 +13,13 @@ pub struct Bounds {
     pub high: Point,
 }
 
+/// [`Bounds::NOTHING`].
+impl Default for Bounds {
+    fn default() -> Self {
+        Self::NOTHING
+    }
+}
+
 impl Bounds {
     /// All of space.
     pub const EVERYWHERE: Self = Self { low: [f64::NEG_INFINITY; 3], high: [f64::INFINITY; 3] };

@@ -86,6 +86,12 @@ impl Counted {
             self.grid = None;
             return None;
         }
+        let voxels_of = |buds: &Vec<(usize, Point)>| {
+            let mut voxels: Vec<Voxel> = buds.iter().map(|(_, place)| shape.within(shape.voxel(*place))).collect();
+            voxels.dedup();
+            voxels
+        };
+        let marked: Vec<Vec<Voxel>> = buds.par_iter().with_min_len(FEWEST_PLANTS).map(voxels_of).collect();
         let [stand, taken] = self.plants.iter().fold([0; 2], |[a, b], of| [a + of.leaves[0], b + of.leaves[1]]);
         self.given_up = taken > MOST_TAKEN.max(stand / 3);
         for of in &self.plants {
@@ -94,7 +100,7 @@ impl Counted {
             }
         }
         grid.unmark();
-        buds.iter().flatten().for_each(|(_, place)| grid.mark(*place));
+        marked.into_iter().flatten().for_each(|voxel| grid.mark_voxel(voxel));
         let mut sorted = grid.sorted();
         let anchor = sorted.voxel(standing.anchor());
         sorted.anchor = [anchor[0], anchor[1]];
@@ -152,8 +158,12 @@ impl OfPlant {
                 pieces_of_leaf(plant, OrganId(organ as u32), age, longest, &mut |piece: Piece| {
                     let (voxel, class, units) = grid.share(&piece);
                     fits &= units <= MOST_UNITS;
-                    if units > 0 {
-                        changes.push((voxel, class as u8, sign * units.min(MOST_UNITS) as i64));
+                    let units = sign * units.min(MOST_UNITS) as i64;
+                    match changes.last_mut() {
+                        // What comes one after the other mostly falls into one voxel.
+                        Some((last, of_class, sum)) if (*last, *of_class) == (voxel, class as u8) => *sum += units,
+                        _ if units != 0 => changes.push((voxel, class as u8, units)),
+                        _ => {}
                     }
                 });
             };

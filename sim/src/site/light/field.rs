@@ -41,9 +41,11 @@ pub struct Field {
     pub grid: Grid,
     /// What lit them.
     pub sources: Vec<Source>,
-    /// The share of open light in each voxel whose light is wanted, its mean over the voxel; 0 in the others.
+    /// The voxels whose light is wanted.
+    wanted: Wanted,
+    /// The share of open light in each of them, its mean over the voxel.
     pub light: Vec<f64>,
-    /// The light that each voxel keeps, m² of open ground.
+    /// The light that each of them keeps, m² of open ground; the others keep none.
     pub kept: Vec<f64>,
     balance: Balance,
     lighting: Lighting,
@@ -85,6 +87,7 @@ impl Field {
     /// The light in voxels that hold this leaf area.
     pub fn in_grid(lighting: &Lighting, grid: Grid, sources: &[Source]) -> Self {
         let mut field = Self {
+            wanted: Wanted::of(&grid),
             grid,
             sources: sources.to_vec(),
             light: Vec::new(),
@@ -92,27 +95,23 @@ impl Field {
             balance: Balance::default(),
             lighting: lighting.clone(),
         };
-        let lit = field.lit(&Wanted::of(&field.grid));
+        let lit = field.lit();
         (field.light, field.kept, field.balance) = lit;
         field
     }
 
-    /// Of all voxels the light and what they keep; what becomes of all light.
-    fn lit(&self, wanted: &Wanted) -> (Vec<f64>, Vec<f64>, Balance) {
-        let shadows = self.shadows();
+    /// Of the wanted voxels the light and what they keep; what becomes of all light.
+    fn lit(&self) -> (Vec<f64>, Vec<f64>, Balance) {
+        let (wanted, shadows) = (&self.wanted, self.shadows());
         let even = wanted.indices().map(|index| self.extinction(index, None)).collect::<Vec<f64>>();
         let mut sums = vec![[0.0; 2]; wanted.count()];
         let mut balance = Balance::default();
         for some in self.sources.chunks(AT_ONCE) {
             let one = |source: &Source| self.shone(wanted, &even, &shadows, source);
-            let shone: Vec<Shone> = some.par_iter().map(one).collect();
+            let shone: Vec<Shone> = some.par_iter().with_max_len(1).map(one).collect();
             balance = add(&mut sums, balance, some, &shone);
         }
-        let voxels = self.grid.area.len();
-        let (mut light, mut kept) = (vec![0.0; voxels], vec![0.0; voxels]);
-        for (index, [share, lost]) in wanted.indices().zip(sums) {
-            (light[index], kept[index]) = (share.min(1.0), lost);
-        }
+        let (light, kept) = sums.into_iter().map(|[share, lost]| (share.min(1.0), lost)).unzip();
         (light, kept, balance)
     }
 
@@ -226,16 +225,16 @@ fn add(sums: &mut [[f64; 2]], balance: Balance, sources: &[Source], shone: &[Sho
 
 impl Lit for Field {
     fn share_at(&self, place: Point) -> f64 {
-        match self.grid.index(self.grid.within(self.grid.voxel(place))) {
-            Some(index) if self.grid.is_wanted(index) => self.light[index],
-            _ => self.share_by_rays(place),
-        }
+        let index = self.grid.index(self.grid.within(self.grid.voxel(place)));
+        let number = index.and_then(|index| self.wanted.number(index));
+        number.map_or_else(|| self.share_by_rays(place), |number| self.light[number])
     }
 
     fn kept_by(&self, piece: &Piece) -> f64 {
         let index = self.grid.index(self.grid.within(self.grid.voxel(piece.place)));
         let share = |index: usize| piece.area * UNITS / self.grid.area[index].max(1) as f64;
-        index.map_or(0.0, |index| self.kept[index] * share(index).min(1.0))
+        let kept = |index: usize| self.wanted.number(index).map_or(0.0, |number| self.kept[number]);
+        index.map_or(0.0, |index| kept(index) * share(index).min(1.0))
     }
 
     fn balance(&self) -> Balance {

@@ -9,6 +9,8 @@
 use super::normals::{CLASSES, class_of};
 use super::{Borders, Lighting, Piece, Projection};
 use crate::shape::Point;
+use rayon::iter::{IndexedParallelIterator, IntoParallelIterator, ParallelIterator};
+use rayon::slice::ParallelSliceMut;
 
 /// The voxels along an edge of a brick, as a power of 2.
 pub const BITS: u32 = 3;
@@ -18,6 +20,8 @@ pub const EDGE: i32 = 1 << BITS;
 pub const VOXELS: usize = 1 << (3 * BITS);
 /// The words of marks of a brick.
 const WORDS: usize = VOXELS / 64;
+/// The fewest bricks that a thread takes from a grid.
+const FEWEST_BRICKS: usize = 64;
 /// The units of area in a m².
 pub const UNITS: f64 = 4_294_967_296.0;
 /// The farthest brick from the corner of the plot, along each axis.
@@ -137,7 +141,12 @@ impl Grid {
 
     /// Makes the voxel of a place, so that its light is found.
     pub fn mark(&mut self, place: Point) {
-        let index = self.make(self.within(self.voxel(place)));
+        self.mark_voxel(self.within(self.voxel(place)));
+    }
+
+    /// Makes a voxel, so that its light is found.
+    pub(super) fn mark_voxel(&mut self, voxel: Voxel) {
+        let index = self.make(voxel);
         self.marked[index / 64] |= 1 << (index % 64);
     }
 
@@ -183,7 +192,8 @@ impl Grid {
             self.marked[brick * WORDS..(brick + 1) * WORDS].iter().any(|word| *word > 0)
                 || self.area[brick * VOXELS..(brick + 1) * VOXELS].iter().any(|units| *units > 0)
         };
-        let mut order: Vec<usize> = (0..self.bricks.len()).filter(holds).collect();
+        let bricks = (0..self.bricks.len()).into_par_iter().with_min_len(FEWEST_BRICKS);
+        let mut order: Vec<usize> = bricks.filter(holds).collect();
         order.sort_unstable_by_key(|&brick| self.bricks[brick]);
         let mut sorted = self.without_bricks();
         sorted.take_in_order(self, &order);
@@ -292,10 +302,9 @@ impl Grid {
     /// Takes some bricks of another grid, in an order.
     fn take_in_order(&mut self, from: &Self, order: &[usize]) {
         let taken = |column: &[u64], each: usize| -> Vec<u64> {
-            let mut taken = Vec::with_capacity(if column.is_empty() { 0 } else { order.len() * each });
-            if !column.is_empty() {
-                order.iter().for_each(|&brick| taken.extend_from_slice(&column[brick * each..(brick + 1) * each]));
-            }
+            let mut taken = vec![0; if column.is_empty() { 0 } else { order.len() * each }];
+            let bricks = taken.par_chunks_exact_mut(each).zip(order).with_min_len(FEWEST_BRICKS);
+            bricks.for_each(|(taken, &brick)| taken.copy_from_slice(&column[brick * each..(brick + 1) * each]));
             taken
         };
         (self.area, self.by_normal) = (taken(&from.area, VOXELS), taken(&from.by_normal, VOXELS * CLASSES));
@@ -335,66 +344,4 @@ pub fn within_brick([x, y, z]: Voxel) -> usize {
 fn hash([x, y, z]: [i32; 3]) -> usize {
     let packed = (x as u32 as u64) ^ ((y as u32 as u64) << 21) ^ ((z as u32 as u64) << 42);
     (packed.wrapping_mul(0x9e37_79b9_7f4a_7c15) >> 32) as usize
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn piece(place: Point, area: f64) -> Piece {
-        Piece { place, normal: [0.0, 0.6, 0.8], area }
-    }
-
-    #[test]
-    fn no_order_of_leaves_shows() {
-        let lighting = Lighting { projection: Projection::OfLeaves, ..Lighting::default() };
-        let pieces: Vec<Piece> = (0..3_000_u32)
-            .map(|k| {
-                let at = |prime: u32| f64::from(k.wrapping_mul(prime) % 1_009) * 0.013 - 6.0;
-                Piece { normal: [at(3), at(5), 1.0], ..piece([at(7), at(11), at(13)], f64::from(k) * 1e-6) }
-            })
-            .collect();
-        let mut all = Grid::of(&lighting);
-        pieces.iter().for_each(|piece| all.add(piece));
-        let mut parts = [Grid::of(&lighting), Grid::of(&lighting)];
-        pieces.iter().rev().enumerate().for_each(|(k, piece)| parts[k % 2].add(piece));
-        let mut joined = Grid::of(&lighting);
-        parts.iter().for_each(|part| joined.join(part));
-        all.sort();
-        joined.sort();
-        assert_eq!(all, joined);
-        let area: f64 = pieces.iter().map(|piece| piece.area).sum();
-        assert!((all.leaf_area() - area).abs() < 3_000.0 / UNITS, "{area}");
-        let by_normal: u64 = all.by_normal.iter().sum();
-        assert_eq!(by_normal, all.area.iter().sum::<u64>());
-        for (brick, place) in all.bricks.iter().enumerate() {
-            assert_eq!(all.brick(*place), brick as u32);
-        }
-        assert_eq!(all.brick([900, 0, 0]), NONE);
-    }
-
-    #[test]
-    fn a_voxel_that_is_full_says_so() {
-        let mut grid = Grid::of(&Lighting::default());
-        grid.add(&piece([0.05; 3], 4e9));
-        assert!(!grid.saturated);
-        grid.add(&piece([0.05; 3], 1e9));
-        assert!(grid.saturated && grid.area.contains(&u64::MAX));
-        for area in [f64::NAN, -1.0, 0.0] {
-            grid.add(&piece([f64::NAN, f64::INFINITY, -1e300], area));
-        }
-        grid.add(&piece([f64::NAN, f64::INFINITY, -1e300], 1.0));
-        assert_eq!(grid.bricks.len(), 2, "a place beyond all places is the farthest");
-    }
-
-    #[test]
-    fn a_plot_that_repeats_takes_places_back() {
-        let lighting = Lighting { borders: Borders::Periodic([1.04, 2.0]), ..Lighting::default() };
-        let grid = Grid::of(&lighting);
-        assert_eq!(grid.period, [10, 20]);
-        assert!((grid.edges[0] - 0.104).abs() < 1e-15);
-        let within = |place| grid.within(grid.voxel(place));
-        assert_eq!(within([0.05, 0.05, 0.05]), within([0.05 - 3.0 * 1.04, 0.05 + 4.0, 0.05]));
-        assert_eq!(within([-0.01, 2.01, -0.01]), [9, 0, -1]);
-    }
 }

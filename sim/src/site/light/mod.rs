@@ -33,6 +33,8 @@ mod tests_balance;
 #[cfg(test)]
 mod tests_canopy;
 #[cfg(test)]
+mod tests_grid;
+#[cfg(test)]
 mod tests_sphere;
 #[cfg(test)]
 mod tests_sweep;

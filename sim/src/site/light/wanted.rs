@@ -5,12 +5,15 @@
 
 use super::grid::{BITS, EDGE, Grid, VOXELS};
 use crate::shape::Point;
+use rayon::iter::{IndexedParallelIterator, IntoParallelIterator, ParallelIterator};
 
 /// The rows of voxels along X in a brick.
 pub const ROWS: usize = VOXELS / EDGE as usize;
+/// The fewest rows that a thread looks through.
+const FEWEST_ROWS: usize = 16_384;
 
 /// The voxels of a grid that have leaves or are marked.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub struct Wanted {
     /// Of each row of voxels along X, brick by brick, one bit a voxel.
     rows: Vec<u8>,
@@ -29,14 +32,16 @@ impl Wanted {
     pub fn of(grid: &Grid) -> Self {
         let mut wanted = Self::default();
         let all = grid.area.len() >> BITS;
-        wanted.rows.reserve_exact(all);
+        let in_row = |row: usize| grid.wanted_in_row(row);
+        wanted.rows = (0..all).into_par_iter().with_min_len(FEWEST_ROWS).map(in_row).collect();
         wanted.first.reserve_exact(all);
-        for row in 0..all {
-            let bits = grid.wanted_in_row(row);
-            wanted.rows.push(bits);
+        for (row, &bits) in (0..).zip(&wanted.rows) {
             wanted.first.push(wanted.indices.len() as u32);
-            let of_row = (0..EDGE as u32).filter(|bit| bits & (1 << bit) != 0);
-            wanted.indices.extend(of_row.map(|bit| (row as u32) << BITS | bit));
+            let mut left = u32::from(bits);
+            while left != 0 {
+                wanted.indices.push(row << BITS | left.trailing_zeros());
+                left &= left - 1;
+            }
         }
         wanted.boxes = wanted.rows.chunks_exact(ROWS).map(box_of).collect();
         wanted.orders = [[false, false], [true, false], [false, true], [true, true]].map(|[x, y]| {

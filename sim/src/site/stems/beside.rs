@@ -4,8 +4,9 @@
 //! within, and siblings leave one node, without any exception for them. Distances are those of the bark from the middle
 //! line of the new internode, in metres, negative within the wood.
 
+use super::Stems;
 use super::segments::Segment;
-use super::{Stem, Stems};
+use super::stem::{Near, length};
 use crate::shape::Point;
 use crate::site::solids::{Cone, along};
 use crate::vector::Vector;
@@ -35,15 +36,6 @@ pub struct Beside {
     known: bool,
 }
 
-/// A stem near a bud, metres in the plot.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Near {
-    middle: Segment,
-    radii: [f64; 2],
-    plant: u32,
-    axis: u32,
-}
-
 /// Where an internode comes too near to a stem.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Touch {
@@ -56,21 +48,6 @@ pub struct Touch {
 }
 
 impl Near {
-    pub(super) fn of(stem: &Stem, place: Point, plant: u32) -> Self {
-        let [start, end] = [stem.start, stem.end].map(|end| Vector::of(place) + Vector::from(end));
-        Self { middle: Segment { start, along: end - start }, radii: stem.radii.map(f64::from), plant, axis: stem.axis }
-    }
-
-    fn radius(&self, share: f64) -> f64 {
-        self.radii[0] + (self.radii[1] - self.radii[0]) * share
-    }
-
-    /// The distance from a point to the bark: that to the nearest point of the middle line, less the radius there.
-    pub(super) fn distance(&self, point: Vector) -> f64 {
-        let share = self.middle.share_near(point);
-        length(point - self.middle.at(share)) - self.radius(share)
-    }
-
     /// The distance of a segment, with the shares of both lengths at which they are nearest.
     fn distance_of(&self, way: &Segment) -> (f64, [f64; 2]) {
         let shares = way.shares_near(&self.middle);
@@ -119,7 +96,7 @@ impl Beside {
             let ball = (self.middle, self.reach);
             self.stems.clear();
             all.each_near(point, reach + ROUNDING, spared, &mut |plant, stem| {
-                if stem.is_near(plant, ball.0, ball.1) {
+                if stem.is_near([0, 1, 2].map(|k| ball.0[k] - plant.place[k]), ball.1) {
                     self.stems.push(Near::of(stem, plant.place, plant.number));
                 }
             });
@@ -233,10 +210,6 @@ impl Near {
         let outward = if length(between) > ROUNDING { between.unit() } else { None };
         outward.or_else(across).or_else(any).map_or([0.0, 0.0, 1.0], point_of)
     }
-}
-
-fn length(vector: Vector) -> f64 {
-    vector.dot(vector).sqrt()
 }
 
 fn point_of(Vector { x, y, z }: Vector) -> Point {

@@ -1,10 +1,10 @@
-//! The cells of space through which stems pass, so that a bud asks those beside it alone.
+//! The cells of space through which the stems of a plant pass, so that a bud asks those beside it alone.
 //!
 //! Cells are cubes of one edge, twice as long as the stems are on average; they stand in bricks of 8 × 8 × 8 that
 //! are made where stems come, so memory follows the wood. A stem is entered once in each cell that the box about a part
 //! of it touches, with the radius that it was entered for, and stays there from tick to tick as long as it stands where
-//! it stood. Found are all that may be near, some of them more than once and in no order that means anything. Absent:
-//! the stems themselves.
+//! it stood. Found are all that may be near, some of them more than once and in no order that means anything. Places
+//! are metres from the seed. Absent: the stems themselves.
 
 use super::Stem;
 use crate::shape::Point;
@@ -25,17 +25,10 @@ const NONE: u32 = u32::MAX;
 /// What places may lack in digits, metres.
 const ROUNDING: f64 = 1e-4;
 
-/// Which stem: the place of its plant in the plot and its node.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) struct Which {
-    pub plant: u32,
-    pub node: u32,
-}
-
 /// A box of cells, both corners included.
 pub(super) type Range = [[i32; 3]; 2];
 
-/// The cells of a plot.
+/// The cells of a plant.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Cells {
     /// The edge of a cell, metres; 0 before any stem is known.
@@ -49,12 +42,12 @@ pub(super) struct Cells {
     /// The first entry that has been given back.
     free: u32,
     /// The stems that pass through too many cells.
-    long: Vec<Which>,
+    long: Vec<u32>,
 }
 
 #[derive(Debug, Clone, Copy)]
 struct Entry {
-    which: Which,
+    node: u32,
     next: u32,
 }
 
@@ -76,9 +69,9 @@ impl Cells {
         (count(&range) <= MOST_CELLS).then_some(range)
     }
 
-    /// The cells of each part of a stem of a plant at this place; `None` where they are too many.
-    fn parts(&self, stem: &Stem, place: Point) -> Option<impl Iterator<Item = Range> + use<>> {
-        let [start, end] = [stem.start, stem.end].map(|end| [0, 1, 2].map(|k| place[k] + f64::from(end[k])));
+    /// The cells of each part of a stem; `None` where they are too many.
+    fn parts(&self, stem: &Stem) -> Option<impl Iterator<Item = Range> + use<>> {
+        let [start, end] = [stem.start, stem.end].map(|end| end.map(f64::from));
         let margin = f64::from(stem.entered);
         let along = [0, 1, 2].map(|k| end[k] - start[k]);
         let longest = along.iter().fold(0.0_f64, |longest, x| longest.max(x.abs()));
@@ -96,39 +89,39 @@ impl Cells {
         }))
     }
 
-    /// Whether two stems of a plant at this place are entered in the same cells.
-    pub fn same(&self, one: &Stem, other: &Stem, place: Point) -> bool {
-        match (self.parts(one, place), self.parts(other, place)) {
+    /// Whether two stems are entered in the same cells.
+    pub fn same(&self, one: &Stem, other: &Stem) -> bool {
+        match (self.parts(one), self.parts(other)) {
             (Some(one), Some(other)) => one.eq(other),
             (one, other) => one.is_none() && other.is_none(),
         }
     }
 
     /// Enters a stem.
-    pub fn enter(&mut self, which: Which, stem: &Stem, place: Point) {
-        let Some(parts) = self.parts(stem, place) else { return self.long.push(which) };
+    pub fn enter(&mut self, node: u32, stem: &Stem) {
+        let Some(parts) = self.parts(stem) else { return self.long.push(node) };
         for range in parts {
             each_cell(&range, |cell| {
                 let slot = self.make(cell);
                 let first = self.first[slot];
                 // The part before may have been entered here.
-                if first == NONE || self.entries[first as usize].which != which {
-                    self.first[slot] = self.entry(Entry { which, next: first });
+                if first == NONE || self.entries[first as usize].node != node {
+                    self.first[slot] = self.entry(Entry { node, next: first });
                 }
             });
         }
     }
 
     /// Takes a stem out again, as it was entered.
-    pub fn remove(&mut self, which: Which, stem: &Stem, place: Point) {
-        let Some(parts) = self.parts(stem, place) else { return self.long.retain(|long| *long != which) };
+    pub fn remove(&mut self, node: u32, stem: &Stem) {
+        let Some(parts) = self.parts(stem) else { return self.long.retain(|long| *long != node) };
         for range in parts {
             each_cell(&range, |cell| {
                 let Some(slot) = self.slot(cell) else { return };
                 let (mut before, mut entry) = (NONE, self.first[slot]);
                 while entry != NONE {
-                    let Entry { which: found, next } = self.entries[entry as usize];
-                    if found == which {
+                    let Entry { node: found, next } = self.entries[entry as usize];
+                    if found == node {
                         match before {
                             NONE => self.first[slot] = next,
                             before => self.entries[before as usize].next = next,
@@ -144,7 +137,7 @@ impl Cells {
     }
 
     /// Shows the stems of a box of cells.
-    pub fn each_in(&self, range: &Range, mut show: impl FnMut(Which)) {
+    pub fn each_in(&self, range: &Range, mut show: impl FnMut(u32)) {
         let mut brick = (NONE, [i32::MIN; 3]);
         each_cell(range, |cell| {
             let place = cell.map(|x| x >> BITS);
@@ -155,12 +148,12 @@ impl Cells {
                 return;
             }
             let mut entry = self.first[brick.0 as usize * CELLS + inner(cell)];
-            while let Some(Entry { which, next }) = self.entries.get(entry as usize) {
-                show(*which);
+            while let Some(Entry { node, next }) = self.entries.get(entry as usize) {
+                show(*node);
                 entry = *next;
             }
         });
-        self.long.iter().for_each(|which| show(*which));
+        self.long.iter().for_each(|node| show(*node));
     }
 
     fn entry(&mut self, entry: Entry) -> u32 {

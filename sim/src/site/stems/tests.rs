@@ -1,8 +1,9 @@
 //! What is beside a bud: found through the trees as by asking each stem, and a cone that meets a stem, by hand.
 
-use super::beside::Near;
+use super::stem::Near;
 use super::*;
 use crate::site::solids::Cone;
+use crate::vector::Vector;
 
 /// A plant of stems, each an axis of its own.
 fn of_plant(number: u32, place: Point, stems: &[([f32; 3], [f32; 3], f32)]) -> OfPlant {
@@ -17,13 +18,18 @@ fn of_plant(number: u32, place: Point, stems: &[([f32; 3], [f32; 3], f32)]) -> O
     let stems: Vec<Stem> = stems.iter().enumerate().map(stem).collect();
     let (standing, length) = (stems.len(), stems.iter().map(Stem::extent).sum());
     let pieces = (0..standing as u32).step_by(3).map(|start| (start, (start + 3).min(standing as u32))).collect();
-    OfPlant { number, place, stems, standing, length, pieces, ..OfPlant::default() }
+    OfPlant { number, place, about: about(&stems, place), stems, standing, length, pieces, ..OfPlant::default() }
 }
 
 fn stems(plants: Vec<OfPlant>, whose: Whose) -> Stems {
     let mut stems = Stems { whose, plants, ..Stems::default() };
-    stems.enter();
+    stems.number();
     stems
+}
+
+/// A box about stems, as they are entered.
+fn about(stems: &[Stem], place: Point) -> Bounds {
+    stems.iter().fold(Bounds::NOTHING, |all, stem| all.with(&stem.entered_bounds(place)))
 }
 
 /// Numbers in [0, 1) without an order.
@@ -48,9 +54,10 @@ fn stems_that_change_are_found_where_they_are() {
     let place = [3.0, -7.0, 0.5];
     let first: Vec<Stem> = (0..200).map(|axis| stem(axis, if axis % 50 == 0 { 300.0 } else { 0.2 }, 0.02)).collect();
     let of = |stems: &[Stem]| {
-        let standing: Vec<&Stem> = stems.iter().filter(|stem| stem.entered >= 0.0).collect();
-        let length = standing.iter().map(|stem| stem.extent()).sum();
-        OfPlant { number: 5, place, standing: standing.len(), length, stems: stems.to_vec(), ..OfPlant::default() }
+        let stands: Vec<Stem> = stems.iter().copied().filter(|stem| stem.entered >= 0.0).collect();
+        let (standing, length) = (stands.len(), stands.iter().map(Stem::extent).sum());
+        let about = about(&stands, place);
+        OfPlant { number: 5, place, about, standing, length, stems: stems.to_vec(), ..OfPlant::default() }
     };
     let mut kept = stems(vec![of(&first)], Whose::Neighbours);
     let (mut found, mut made_anew) = (0, 0);
@@ -68,10 +75,12 @@ fn stems_that_change_are_found_where_they_are() {
                 (node, was)
             })
             .collect();
-        let suited = kept.cells.suit(of(&now).length / of(&now).standing as f64);
+        let suited = kept.plants[0].cells().suit(of(&now).mean_length());
         made_anew += usize::from(!suited);
-        kept.plants[0] = OfPlant { changed, ..of(&now) };
-        kept.enter();
+        let cells = std::mem::take(&mut kept.plants[0].cells);
+        kept.plants[0] = OfPlant { changed, cells, ..of(&now) };
+        kept.plants[0].enter();
+        kept.boxes = OnceLock::new();
         let fresh = stems(vec![of(&now)], Whose::Neighbours);
         assert!(kept == fresh);
         for _ in 0..150 {
@@ -105,14 +114,24 @@ fn what_is_near_is_what_asking_each_stem_finds() {
         (0..240).map(stem).collect()
     };
     let plants: Vec<OfPlant> =
-        (0..9).map(|k| of_plant(k, [f64::from(k % 3), f64::from(k / 3), 0.0], &some(k as usize))).collect();
-    let mut found = 0;
+        (0..16).map(|k| of_plant(k, [f64::from(k % 4), f64::from(k / 4), 0.0], &some(k as usize))).collect();
+    let (mut found, mut by_list, mut by_tree) = (0, 0, 0);
     for whose in [Whose::Neighbours, Whose::All] {
         let all = stems(plants.clone(), whose);
         for asked in 0..300_u32 {
             let [x, y, z] = [7, 11, 13].map(|prime| f64::from(asked * prime % 97) / 97.0);
-            let (point, reach) = ([3.2 * x, 3.2 * y, z], 0.02 + 0.2 * z);
-            let spared = Spared { plant: asked % 9, axis: asked % 240 };
+            let spared = Spared { plant: asked % 16, axis: asked % 240 };
+            // Every other one asks about its own plant, the others anywhere; one of them about a place far beyond all.
+            let own = plants[spared.plant as usize].place;
+            let about_own = [own[0] + 1.4 * x - 0.2, own[1] + 1.4 * y - 0.2, z];
+            let point = if asked % 2 == 0 { about_own } else { [4.2 * x, 4.2 * y, if asked == 7 { 9.0 } else { z }] };
+            let reach = 0.02 + if asked % 5 == 0 { 0.8 } else { 0.2 } * z;
+            let box_of_own = all.plants[spared.plant as usize].about.with_margin(ASIDE - reach - ROUNDING);
+            if box_of_own.holds(point) {
+                by_list += 1
+            } else {
+                by_tree += 1
+            }
             let mut near = Vec::new();
             all.each_near(point, reach, spared, &mut |plant, stem| near.push((plant.number, stem.axis)));
             near.sort_unstable();
@@ -135,7 +154,7 @@ fn what_is_near_is_what_asking_each_stem_finds() {
             found += near.len();
         }
     }
-    assert!(found > 2000, "{found}");
+    assert!(found > 2000 && by_list > 150 && by_tree > 150, "{found} {by_list} {by_tree}");
 }
 
 /// A cone of 10 cm and 30° before an upright stem of 1 cm radius, whose bark is to be felt where the middle of a ball
