@@ -23,6 +23,7 @@ mod plan;
 mod planned;
 mod record;
 mod site;
+mod steps;
 #[cfg(test)]
 mod tests;
 #[cfg(test)]

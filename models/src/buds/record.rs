@@ -93,12 +93,18 @@ impl Words {
     /// Reads the record of a clock step, from 0, of an axis that may go through `ahead` steps from this one on.
     #[inline]
     pub fn read_step(&mut self, laws: &OrderLaws, random: &PlantRandom, key: LineageKey, step: u32, ahead: u32) {
-        let width = laws.step.width;
-        if width > 0 && !self.steps.go_to(step, width) {
-            self.read_steps(laws, random, key, step, ahead);
-        }
+        self.go_to_step(laws, step, |words| words.read_steps(laws, random, key, step, ahead));
         if !laws.step.spare.places().is_empty() && self.responds(laws) {
             self.read_step_response(laws, random, key, step);
+        }
+    }
+
+    /// Goes to the record of a clock step, from 0; `read` reads it where it is not at hand.
+    #[inline(always)]
+    pub fn go_to_step(&mut self, laws: &OrderLaws, step: u32, read: impl FnOnce(&mut Self)) {
+        let width = laws.step.width;
+        if width > 0 && !self.steps.go_to(step, width) {
+            read(self);
         }
     }
 
@@ -122,7 +128,7 @@ impl Words {
 
     /// Reads the records of the steps from `step` on: of one where words of responses stand behind it, else of many.
     #[inline(never)]
-    fn read_steps(&mut self, laws: &OrderLaws, random: &PlantRandom, key: LineageKey, step: u32, ahead: u32) {
+    pub fn read_steps(&mut self, laws: &OrderLaws, random: &PlantRandom, key: LineageKey, step: u32, ahead: u32) {
         let width = laws.step.width;
         let alone = !laws.step.spare.places().is_empty() && self.responds(laws);
         let most = WORDS_AT_ONCE[usize::from(self.steps.number > 0)] / width;
