@@ -62,6 +62,7 @@ pub(super) struct Axis<'a> {
 pub(super) struct Full;
 
 impl<'a> Axis<'a> {
+    #[inline(always)]
     pub fn new(model: &'a BudModel, plant: &'a mut Plant, words: &'a mut Words, bud: ApicalBud) -> Self {
         let laws = model.laws(plant.axes.order[bud.axis.index()]);
         words.of(laws);
@@ -130,11 +131,14 @@ impl<'a> Axis<'a> {
             self.make_planned()?;
         }
         let in_all = self.speed.steps_by(last.saturating_sub(self.birth));
-        if !self.plans && most_nodes > 0 && in_all > self.bud.cycle {
+        if !self.plans && most_nodes > 0 && in_all > self.bud.cycle && !self.words.are_ahead() {
             self.read_both();
         }
-        let lives =
-            if self.takes_plain_steps() { self.plan_steps(last, in_all)? } else { self.take_steps(last, in_all)? };
+        let lives = if self.takes_plain_steps() {
+            self.take_plain_steps(last, in_all)?
+        } else {
+            self.take_steps(last, in_all)?
+        };
         if !lives {
             return Ok(());
         }

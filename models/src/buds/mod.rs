@@ -62,6 +62,7 @@ mod tests_stems;
 mod tests_training;
 #[cfg(test)]
 mod tests_variables;
+mod together;
 
 pub use bud::{ApicalBud, LivingBuds};
 pub use compile::BudModel;

@@ -150,7 +150,8 @@ fn make_at_once(model: &BudModel, plant: &mut Plant, words: &mut Words) -> Resul
         shoots: &plan.shoots,
         zones: &plan.zones,
         trends: &plan.trends,
-        words: nodes,
+        words: nodes.words(),
+        records: &nodes.records,
         first: NodeId(plant.nodes.len() as u32),
     };
     if !columns.make(&block, plant, &plan.events) {

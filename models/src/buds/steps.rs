@@ -1,10 +1,11 @@
-//! The clock steps of an axis that plans its nodes, where each step has at most one growth unit and no terminal flower:
-//! those of most species.
+//! The clock steps of an axis in the open whose steps have at most one growth unit and no terminal flower: those of
+//! most species.
 //!
 //! The steps are those of [`Axis::step`], test for test; here the laws that are the same at every point are looked up
 //! once an axis, and the point of the laws is written in one place until the axis is at its age. Absent: steps with
 //! several units, neoformed nodes, drawn zones, terminal flowers or relays between them (`grow`).
 
+use super::around::Lie;
 use super::bud::ApicalBud;
 use super::compile::{OrderLaws, Piece, StepLaws, Tested};
 use super::grow::{Axis, Full};
@@ -29,16 +30,15 @@ impl<'a> Tests<'a> {
 }
 
 impl Axis<'_> {
-    /// Whether it goes through its steps by [`Self::plan_steps`].
+    /// Whether it goes through its steps by [`Self::take_plain_steps`].
     pub(super) fn takes_plain_steps(&self) -> bool {
         let OrderLaws { step, light_alone, .. } = self.laws;
         let reads_responses = !step.spare.places().is_empty() && (self.words.shaded || !light_alone);
-        self.plans && step.is_plain && !reads_responses
+        step.is_plain && !reads_responses && self.met.is_none() && self.plant.exposure.is_none()
     }
 
-    /// Goes through the steps up to the tick `last`, `in_all` of them since its birth, and plans their growth units.
-    /// Whether the apex lives.
-    pub(super) fn plan_steps(&mut self, last: Tick, in_all: u32) -> Result<bool, Full> {
+    /// Goes through the steps up to the tick `last`, `in_all` of them since its birth. Whether the apex lives.
+    pub(super) fn take_plain_steps(&mut self, last: Tick, in_all: u32) -> Result<bool, Full> {
         let laws = &self.laws.step;
         let tests = Tests::of(laws, self.words.shaded);
         let (birth, speed) = (self.birth, self.speed);
@@ -61,7 +61,7 @@ impl Axis<'_> {
                 let short = tests.short.happens(words, &at);
                 let number = if short { &laws.short_nodes } else { &laws.long_nodes };
                 let nodes = number.draw_at(words, &at);
-                self.plan_whole(&at, short, nodes)?;
+                self.grow_unit(&at, short, nodes)?;
                 self.note_at(&at, EventKind::Grew, nodes);
                 // The growth unit has a new bud at its tip.
                 at.unit += 1;
@@ -93,6 +93,20 @@ impl Axis<'_> {
         let At { age, cycle, unit: units, bud_birth: birth, state, .. } = *at;
         self.bud = ApicalBud { cycle, units, birth, state, ..self.bud };
         self.set_tick(age);
+    }
+
+    /// Plans or makes a growth unit of preformed nodes.
+    #[inline(always)]
+    fn grow_unit(&mut self, at: &At, short: bool, nodes: u32) -> Result<(), Full> {
+        if self.plans {
+            return self.plan_whole(at, short, nodes);
+        }
+        self.stand_at(at);
+        for rank in 1..=nodes {
+            self.read_node();
+            self.node(rank, nodes, (short, false), Lie::Free)?;
+        }
+        Ok(())
     }
 
     /// Plans a growth unit of preformed nodes. One that fills the block is parted between blocks.

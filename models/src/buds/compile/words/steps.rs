@@ -3,7 +3,7 @@
 //! Each draw is the one that the record of the step gives (`words`).
 
 use super::{Chance, Number, Outcome};
-use crate::law::{At, Threshold, Varies};
+use crate::law::{At, ProbabilityTable, Threshold, Varies};
 
 /// A test that is made at many steps of an axis.
 #[derive(Debug, Clone, Copy)]
@@ -12,8 +12,10 @@ pub enum Tested<'a> {
     Fixed(bool),
     /// Each has a word of its own, at this place of its record, for one threshold.
     Same(Threshold, usize),
-    /// The threshold is looked up at each.
-    ByPoint(&'a Chance),
+    /// Each has a word of its own, at this place of its record, and its threshold is looked up.
+    ByPoint(&'a ProbabilityTable, usize),
+    /// Responses change the probability.
+    Changed(&'a Chance),
 }
 
 impl Tested<'_> {
@@ -23,7 +25,8 @@ impl Tested<'_> {
         match *self {
             Self::Fixed(happens) => happens,
             Self::Same(threshold, place) => threshold.is_met(words[place]),
-            Self::ByPoint(chance) => chance.happens_at(words, at),
+            Self::ByPoint(table, place) => table.happens_at(words[place], at),
+            Self::Changed(chance) => chance.happens_at(words, at),
         }
     }
 }
@@ -33,12 +36,12 @@ impl Chance {
     pub fn looked_up(&self, shaded: bool) -> Tested<'_> {
         let changes = self.change.is_some() && (shaded || !self.light_alone);
         match self.fixed {
-            _ if changes => Tested::ByPoint(self),
+            _ if changes => Tested::Changed(self),
             Some(fixed) => Tested::Fixed(fixed),
             None if self.table.varies() == Varies::Never => {
                 Tested::Same(self.table.threshold(At::default()), self.slot.first)
             }
-            None => Tested::ByPoint(self),
+            None => Tested::ByPoint(&self.table, self.slot.first),
         }
     }
 
@@ -64,6 +67,9 @@ impl Number {
 
     #[inline(never)]
     fn draw_first(&self, words: &[u32], at: &At) -> u32 {
-        self.draw(words, 0, *at)
+        match &self.times {
+            None => self.table.sample_at(self.slot.word(words, 0), at),
+            Some(_) => self.draw(words, 0, *at),
+        }
     }
 }
