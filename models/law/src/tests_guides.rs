@@ -4,14 +4,14 @@
 //! rounding. Words are those around each threshold, around each bound of the guide, and a fixed sequence over the whole
 //! range.
 
-use super::tests::{domain, read, root};
+use super::tests::{domain, root};
 use super::*;
 
 /// The bounds of the guides: the words that begin with the same six bits.
 const GROUP: u32 = 1 << 26;
 
 fn table(given: &str) -> CountTable {
-    let given: Count = read(given).expect("reads");
+    let given: Count = serde_json::from_str(given).expect("reads");
     given.compile(&domain(), &root()).expect("compiles")
 }
 
@@ -58,16 +58,19 @@ fn compare(table: &CountTable, at: At, what: &str) -> usize {
 fn a_guided_count_is_that_of_the_plain_search() {
     let shapes = [
         ("7", 0),
-        ("{ binomial = { n = 1, p = 0.5 } }", 1),
-        ("{ binomial = { n = 12, p = 0.5 }, shift = 4 }", 12),
-        ("{ binomial = { n = 40, p = 0.999 } }", 5),
-        ("{ poisson = { mean = 0.001 } }", 2),
-        ("{ poisson = { mean = 90 } }", 80),
-        ("{ negative_binomial = { r = 0.4, p = 0.01 }, shift = 3 }", 500),
-        ("{ empirical = [0, 0, 1, 0, 0, 1, 0, 1e-12, 1] }", 3),
-        ("{ empirical = [1, 1e-9, 1e-9, 1] }", 3),
+        (r#"{ "binomial": { "n": 1, "p": 0.5 } }"#, 1),
+        (r#"{ "binomial": { "n": 12, "p": 0.5 }, "shift": 4 }"#, 12),
+        (r#"{ "binomial": { "n": 40, "p": 0.999 } }"#, 5),
+        (r#"{ "poisson": { "mean": 0.001 } }"#, 2),
+        (r#"{ "poisson": { "mean": 90 } }"#, 80),
+        (r#"{ "negative_binomial": { "r": 0.4, "p": 0.01 }, "shift": 3 }"#, 500),
+        (r#"{ "empirical": [0, 0, 1, 0, 0, 1, 0, 1e-12, 1] }"#, 3),
+        (r#"{ "empirical": [1, 1e-9, 1e-9, 1] }"#, 3),
         (
-            "{ mixture = [{ weight = 0.046, poisson = { mean = 8.5 } }, { weight = 1, negative_binomial = { r = 21, p = 0.4 } }] }",
+            r#"{ "mixture": [
+                { "weight": 0.046, "poisson": { "mean": 8.5 } },
+                { "weight": 1, "negative_binomial": { "r": 21, "p": 0.4 } }
+            ] }"#,
             40,
         ),
     ];
@@ -81,15 +84,15 @@ fn a_guided_count_is_that_of_the_plain_search() {
 #[test]
 fn tables_with_and_without_guides_draw_alike() {
     for ages in [63, 64, 65, 66, 120] {
-        let law = format!("{{ binomial = {{ n = {{ expression = \"min(age, {ages})\" }}, p = 0.37 }} }}");
-        let given: Count = read(&law).expect("reads");
+        let law = format!(r#"{{ "binomial": {{ "n": {{ "expression": "min(age, {ages})" }}, "p": 0.37 }} }}"#);
+        let given: Count = serde_json::from_str(&law).expect("reads");
         let domain = Domain { until: 130, ..domain() };
         let table = given.compile(&domain, &root()).expect("compiles");
         for age in [1, 2, 31, ages - 1, ages, ages + 1, 130, 999] {
             compare(&table, At { age, ..At::default() }, &law);
         }
     }
-    let most = format!("{{ empirical = [{}1] }}", "1,".repeat(65_535));
+    let most = format!(r#"{{ "empirical": [{}1] }}"#, "1,".repeat(65_535));
     let table = table(&most);
     let (first, thresholds) = thresholds(&table, At::default());
     assert_eq!((table.max(), first, thresholds.len()), (65_535, 0, 65_535));
