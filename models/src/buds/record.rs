@@ -69,13 +69,15 @@ impl Words {
     pub fn of(&mut self, laws: &OrderLaws) {
         (self.bud, self.node, self.step_response, self.node_response) = (None, None, None, None);
         // A quantity without words reads word 0 and ignores it.
-        self.head.resize(laws.head.width.max(1), 0);
+        if self.head.len() != laws.head.width.max(1) {
+            self.head.resize(laws.head.width.max(1), 0);
+        }
         self.steps.of(laws);
-        let least = [(&mut self.on_node, laws.node.spare.words()), (&mut self.end, laws.end.width.max(1))];
-        for (words, least) in least {
-            if words.len() < least {
-                words.resize(least, 0);
-            }
+        if self.on_node.len() < laws.node.spare.words() {
+            self.on_node.resize(laws.node.spare.words(), 0);
+        }
+        if self.end.len() < laws.end.width.max(1) {
+            self.end.resize(laws.end.width.max(1), 0);
         }
         self.trends.clear();
         self.zones.clear();
@@ -187,7 +189,7 @@ impl Words {
     /// Takes the words that were read ahead for the bud which grows next, if any.
     fn take_ahead(&mut self, laws: &OrderLaws) {
         let width = laws.step.width;
-        self.of_bud = self.ahead.next();
+        self.ahead.go_on(&mut self.of_bud);
         if self.of_bud.steps > 0 {
             let (first, number) = (self.of_bud.first, self.of_bud.steps as usize);
             let into = self.steps.begin_at(first, number, laws.step.spare.words() + (number - 1) * width);

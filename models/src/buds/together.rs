@@ -102,8 +102,8 @@ impl Ahead {
         self.next = 0;
     }
 
-    /// Reads words of buds which are about to grow to `age`, in this order. A bud that makes its nodes `one_by_one`
-    /// reads those of its next node too.
+    /// Reads words of buds which are about to grow to `age`, in this order. A bud that makes its nodes `one_by_one`,
+    /// and one at each step unless it dies, reads those of its next node too.
     pub fn read<'a>(
         &mut self,
         (model, plant): (&BudModel, &Plant),
@@ -125,7 +125,8 @@ impl Ahead {
                 let words = start..start + u64::from(of.steps) * width;
                 of.words = self.seek(Sought::stream_of(key, Purpose::Bud), words);
                 let width = laws.node.width as u64;
-                if one_by_one && width > 0 {
+                let makes_one = laws.node.most_nodes == 1 && laws.step.pause.is_never();
+                if one_by_one && makes_one && width > 0 {
                     let start = u64::from(of.node) * width;
                     of.node_words = self.seek(Sought::stream_of(key, Purpose::Node), start..start + width);
                 }
@@ -144,11 +145,14 @@ impl Ahead {
         start..start + length
     }
 
-    /// The words of the bud that grows next.
-    pub fn next(&mut self) -> OfBud {
-        let of = self.buds.get(self.next).cloned().unwrap_or_default();
+    /// Goes on to the bud that grows next, which becomes `of`.
+    #[inline]
+    pub fn go_on(&mut self, of: &mut OfBud) {
+        match self.buds.get(self.next) {
+            Some(next) => of.clone_from(next),
+            None => *of = OfBud::default(),
+        }
         self.next += 1;
-        of
     }
 
     /// The words of the steps of a bud.
