@@ -181,6 +181,21 @@ impl CountTable {
         count
     }
 
+    /// As [`Self::sample`], at a point that stays where it is.
+    #[inline]
+    pub fn sample_at(&self, word: u32, at: &At) -> u32 {
+        let number = self.cells[self.grid.cell_at(at)] as usize;
+        let Distribution { start, len, first, .. } = self.distributions[number];
+        let thresholds = &self.thresholds[start as usize..(start + len) as usize];
+        match self.guides.of(number) {
+            Some(guide) => {
+                let (low, high) = guide.ends(word);
+                first + low as u32 + not_above(&thresholds[low..high], word)
+            }
+            None => first + not_above(thresholds, word),
+        }
+    }
+
     /// Many counts at one point, each with its own word into its own place. Each is that of [`Self::sample`].
     #[inline]
     pub fn sample_many<'a>(&self, at: At, draws: impl Iterator<Item = (u32, &'a mut u32)>) {

@@ -23,8 +23,17 @@ pub(super) struct Grid {
     asks_the_bud: bool,
     /// Whether one of its variables is among those that few laws name.
     asks_rare: bool,
-    /// Its variable, where it has but one that is not the state.
-    only: Option<usize>,
+    /// Its variables, where they are but one or two.
+    few: Few,
+}
+
+/// The variables of a grid that has few of them, by their places.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+enum Few {
+    #[default]
+    No,
+    One(usize),
+    Two(usize, usize),
 }
 
 impl Grid {
@@ -55,7 +64,11 @@ impl Grid {
         grid.asks_the_bud = uses.variables().any(Variable::is_of_the_bud);
         grid.asks_rare = (RARE..STATE).any(|axis| uses.axes[axis]);
         let mut used = (0..AXES).filter(|axis| uses.axes[*axis]);
-        grid.only = used.next().filter(|axis| *axis != STATE && used.next().is_none());
+        grid.few = match [(); 3].map(|()| used.next()) {
+            [Some(only), None, _] => Few::One(only),
+            [Some(one), Some(other), None] => Few::Two(one, other),
+            _ => Few::No,
+        };
         if cells > MAX_CELLS { Err(cells) } else { Ok(grid) }
     }
 
@@ -106,12 +119,24 @@ impl Grid {
     /// The cell of a point, clamped to the grid.
     #[inline]
     pub fn cell(&self, at: At) -> usize {
-        match (self.len, self.only) {
+        self.cell_at(&at)
+    }
+
+    /// As [`Self::cell`], of a point that stays where it is.
+    #[inline(always)]
+    pub fn cell_at(&self, at: &At) -> usize {
+        match (self.len, self.few) {
             (1, _) => 0,
-            // The stride of an only variable is 1.
-            (_, Some(axis)) => at.along(axis).saturating_sub(self.first[axis]).min(self.span[axis]) as usize,
-            (_, None) => self.cell_among(&at),
+            (_, Few::One(axis)) => self.cells_along(axis, at) as usize,
+            (_, Few::Two(one, other)) => (self.cells_along(one, at) + self.cells_along(other, at)) as usize,
+            (_, Few::No) => self.cell_among(at),
         }
+    }
+
+    /// How many cells lie before those of a point along one of the variables.
+    #[inline(always)]
+    fn cells_along(&self, axis: usize, at: &At) -> u32 {
+        at.along(axis).saturating_sub(self.first[axis]).min(self.span[axis]) * self.stride[axis]
     }
 
     fn cell_among(&self, at: &At) -> usize {

@@ -40,6 +40,8 @@ mod tests;
 mod tests_dates;
 #[cfg(test)]
 mod tests_draws;
+#[cfg(test)]
+mod tests_guides;
 mod variable;
 mod variate;
 mod variate_table;

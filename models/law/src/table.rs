@@ -107,6 +107,12 @@ impl ProbabilityTable {
         self.threshold(at).is_met(word)
     }
 
+    /// As [`Self::happens`], at a point that stays where it is: a bud tests one law after another at one point.
+    #[inline(always)]
+    pub fn happens_at(&self, word: u32, at: &At) -> bool {
+        Threshold(self.thresholds[self.grid.cell_at(at)]).is_met(word)
+    }
+
     /// The threshold at a point, for many draws there.
     #[inline]
     pub fn threshold(&self, at: At) -> Threshold {

@@ -44,17 +44,17 @@ pub(super) struct Axis<'a> {
     pub contact: u32,
     /// What the bud lacks of full light, in the steps in which laws know it; 0 where none asks.
     shade: u32,
-    speed: Speed,
+    pub speed: Speed,
     /// The growth units after which the apex ends.
-    last_unit: u32,
+    pub last_unit: u32,
     /// Whether the axis is the first of its set of relays or forks, or belongs to no set.
-    leads: bool,
+    pub leads: bool,
     /// The tick from which dimensions count.
-    birth: Tick,
+    pub birth: Tick,
     /// The age at which a pest kills the whole plant.
     pub whole_death: Tick,
     /// Whether it plans its nodes and makes them at once.
-    plans: bool,
+    pub plans: bool,
 }
 
 /// The plant has no room left for a component that a bud would make.
@@ -62,6 +62,7 @@ pub(super) struct Axis<'a> {
 pub(super) struct Full;
 
 impl<'a> Axis<'a> {
+    #[inline(always)]
     pub fn new(model: &'a BudModel, plant: &'a mut Plant, words: &'a mut Words, bud: ApicalBud) -> Self {
         let laws = model.laws(plant.axes.order[bud.axis.index()]);
         words.of(laws);
@@ -130,18 +131,16 @@ impl<'a> Axis<'a> {
             self.make_planned()?;
         }
         let in_all = self.speed.steps_by(last.saturating_sub(self.birth));
-        if !self.plans && most_nodes > 0 && in_all > self.bud.cycle {
+        if !self.plans && most_nodes > 0 && in_all > self.bud.cycle && !self.words.are_ahead() {
             self.read_both();
         }
-        let mut at = self.at(0);
-        for tick in self.bud.age + 1..=last {
-            self.set_tick(tick);
-            (at.age, at.dimension) = (tick, self.dimension);
-            for _ in at.cycle..self.speed.steps_by(at.dimension) {
-                if !self.step(&mut at, in_all)? {
-                    return Ok(());
-                }
-            }
+        let lives = if self.takes_plain_steps() {
+            self.take_plain_steps(last, in_all)?
+        } else {
+            self.take_steps(last, in_all)?
+        };
+        if !lives {
+            return Ok(());
         }
         if age >= self.whole_death {
             self.make_planned()?;
@@ -155,6 +154,21 @@ impl<'a> Axis<'a> {
         }
         living.push(self.bud);
         Ok(())
+    }
+
+    /// Goes through the steps up to the tick `last`, `in_all` of them since its birth. Whether the apex lives.
+    fn take_steps(&mut self, last: Tick, in_all: u32) -> Result<bool, Full> {
+        let mut at = self.at(0);
+        for tick in self.bud.age + 1..=last {
+            self.set_tick(tick);
+            (at.age, at.dimension) = (tick, self.dimension);
+            for _ in at.cycle..self.speed.steps_by(at.dimension) {
+                if !self.step(&mut at, in_all)? {
+                    return Ok(false);
+                }
+            }
+        }
+        Ok(true)
     }
 
     /// Makes the blocks of words in which the next step and the next node stand.
@@ -255,8 +269,17 @@ impl<'a> Axis<'a> {
         self.words.read_step(self.laws, &self.plant.random, key, step, in_all.saturating_sub(step));
     }
 
+    /// Reads the record of a clock step that has no words of responses.
+    #[inline(always)]
+    pub(super) fn read_plain_step(&mut self, step: u32, in_all: u32) {
+        self.words.go_to_step(self.laws, step, |words| {
+            let key = self.plant.axes.key[self.bud.axis.index()];
+            words.read_steps(self.laws, &self.plant.random, key, step, in_all.saturating_sub(step));
+        });
+    }
+
     /// The death of a bud by its mortality; one that would have lived in full light dies of shade.
-    fn die(&mut self, at: At) -> Result<bool, Full> {
+    pub(super) fn die(&mut self, at: At) -> Result<bool, Full> {
         let in_light = At { shade: 0, ..at };
         if at.shade > 0 && !self.laws.step.death.happens(self.words.step(), 0, in_light) {
             return self.end(ApexFate::Shaded, EventKind::Shaded, ApexEnd::Death);

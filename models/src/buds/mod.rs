@@ -23,6 +23,7 @@ mod plan;
 mod planned;
 mod record;
 mod site;
+mod steps;
 #[cfg(test)]
 mod tests;
 #[cfg(test)]
@@ -61,6 +62,7 @@ mod tests_stems;
 mod tests_training;
 #[cfg(test)]
 mod tests_variables;
+mod together;
 
 pub use bud::{ApicalBud, LivingBuds};
 pub use compile::BudModel;

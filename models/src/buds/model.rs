@@ -24,6 +24,9 @@ use std::sync::Arc;
 /// equally.
 const BEGINNING: u64 = 12;
 
+/// The buds whose next words are made together.
+const READ_TOGETHER: usize = 48;
+
 impl BudModel {
     /// The last age for which the model's laws are compiled.
     pub fn until(&self) -> Tick {
@@ -128,10 +131,15 @@ impl BudModel {
             living.retain(|bud| plant.axes.apex_fate[bud.axis.index()] == ApexFate::Alive);
         }
         Words::lend(false, |words| {
-            for bud in living.drain(..) {
-                self.grow_with((plant, site), bud, age, words)?;
+            for buds in living.chunks(READ_TOGETHER) {
+                let one_by_one = buds.first().is_some_and(|bud| age.saturating_sub(bud.age) == 1);
+                words.read_ahead((self, plant), buds.iter(), age, one_by_one);
+                for bud in buds {
+                    self.grow_with((plant, site), *bud, age, words)?;
+                }
             }
             self.make_last(plant, words)?;
+            living.clear();
             living.append(&mut words.living);
             Ok(())
         })?;
@@ -201,9 +209,13 @@ impl BudModel {
 
     fn grow_in_turn(&self, plant: &mut Plant, waiting: Range<usize>, age: Tick) -> Result<Vec<ApicalBud>, Overgrown> {
         Words::lend(true, |words| {
-            for axis in waiting {
-                let bud = first_bud(self, plant, AxisId(axis as u32));
-                self.grow_with((plant, None), bud, age, words)?;
+            for begin in waiting.clone().step_by(READ_TOGETHER) {
+                let axes = begin..waiting.end.min(begin + READ_TOGETHER);
+                let buds: Vec<_> = axes.map(|axis| first_bud(self, plant, AxisId(axis as u32))).collect();
+                words.read_ahead((self, plant), buds.iter(), age, false);
+                for bud in buds {
+                    self.grow_with((plant, None), bud, age, words)?;
+                }
             }
             self.make_last(plant, words)?;
             Ok(words.living.drain(..).collect())

@@ -44,7 +44,7 @@ impl Axis<'_> {
 
     /// Lets the planned nodes of the axis reach up to the place `end`.
     #[inline]
-    fn shoot(&mut self, end: u32) {
+    pub(super) fn shoot(&mut self, end: u32) {
         let Words { plan, trends, .. } = &mut *self.words;
         if let Some(shoot) = plan.shoots.last_mut().filter(|shoot| shoot.bud.axis == self.bud.axis) {
             shoot.nodes.1 = end;
@@ -151,7 +151,8 @@ fn make_at_once(model: &BudModel, plant: &mut Plant, words: &mut Words) -> Resul
         shoots: &plan.shoots,
         zones: &plan.zones,
         trends: &plan.trends,
-        words: nodes,
+        words: nodes.words(),
+        records: &nodes.records,
         first: NodeId(plant.nodes.len() as u32),
     };
     if !columns.make(&block, plant, &plan.events) {

@@ -5,18 +5,13 @@
 
 use super::bud::ApicalBud;
 use super::columns::Columns;
-use super::compile::{NODE_OF_RESPONSES, OrderLaws, Ranks, STEP_OF_RESPONSES, Spare};
+use super::compile::{BudModel, NODE_OF_RESPONSES, OrderLaws, Ranks, STEP_OF_RESPONSES, Spare};
 use super::plan::Plan;
-use phytomer_sim::plant::LineageKey;
+use super::together::{Ahead, NodeWords, OfBud, WORDS_AT_ONCE};
+use phytomer_sim::clock::Tick;
+use phytomer_sim::plant::{LineageKey, Plant};
 use phytomer_sim::random::{PlantRandom, Purpose, Stream};
 use std::cell::Cell;
-
-/// No node has as many things of one kind.
-const MOST_ON_NODE: usize = 64;
-
-/// The words that an axis which goes through many steps reads at once, the first time and later: blocks of a stream are
-/// made faster many at once, but an axis may die soon.
-const WORDS_AT_ONCE: [usize; 2] = [32, 96];
 
 /// The words of one axis.
 #[derive(Debug, Default)]
@@ -42,8 +37,11 @@ pub(super) struct Words {
     pub many_begin: bool,
     /// The buds that have grown to their age and live.
     pub living: Vec<ApicalBud>,
-    /// Their records.
-    pub nodes: Vec<u32>,
+    /// The records of the nodes that are planned.
+    pub nodes: NodeWords,
+    /// The words of buds that grow one after another, and of the one that grows now.
+    ahead: Ahead,
+    of_bud: OfBud,
     /// Room for making them.
     pub columns: Columns,
 }
@@ -61,6 +59,7 @@ impl Words {
         words.many_begin = many_begin;
         words.plan.clear();
         words.living.clear();
+        words.ahead.clear();
         let done = work(&mut words);
         WORDS.set(Some(words));
         done
@@ -70,12 +69,19 @@ impl Words {
     pub fn of(&mut self, laws: &OrderLaws) {
         (self.bud, self.node, self.step_response, self.node_response) = (None, None, None, None);
         // A quantity without words reads word 0 and ignores it.
-        self.head.resize(laws.head.width.max(1), 0);
+        if self.head.len() != laws.head.width.max(1) {
+            self.head.resize(laws.head.width.max(1), 0);
+        }
         self.steps.of(laws);
-        self.on_node.resize(laws.node.spare.words(), 0);
-        self.end.resize(laws.end.width.max(1), 0);
+        if self.on_node.len() < laws.node.spare.words() {
+            self.on_node.resize(laws.node.spare.words(), 0);
+        }
+        if self.end.len() < laws.end.width.max(1) {
+            self.end.resize(laws.end.width.max(1), 0);
+        }
         self.trends.clear();
         self.zones.clear();
+        self.take_ahead(laws);
     }
 
     /// Reads the head record from the axis's bud stream.
@@ -93,12 +99,18 @@ impl Words {
     /// Reads the record of a clock step, from 0, of an axis that may go through `ahead` steps from this one on.
     #[inline]
     pub fn read_step(&mut self, laws: &OrderLaws, random: &PlantRandom, key: LineageKey, step: u32, ahead: u32) {
-        let width = laws.step.width;
-        if width > 0 && !self.steps.go_to(step, width) {
-            self.read_steps(laws, random, key, step, ahead);
-        }
+        self.go_to_step(laws, step, |words| words.read_steps(laws, random, key, step, ahead));
         if !laws.step.spare.places().is_empty() && self.responds(laws) {
             self.read_step_response(laws, random, key, step);
+        }
+    }
+
+    /// Goes to the record of a clock step, from 0; `read` reads it where it is not at hand.
+    #[inline(always)]
+    pub fn go_to_step(&mut self, laws: &OrderLaws, step: u32, read: impl FnOnce(&mut Self)) {
+        let width = laws.step.width;
+        if width > 0 && !self.steps.go_to(step, width) {
+            read(self);
         }
     }
 
@@ -122,7 +134,7 @@ impl Words {
 
     /// Reads the records of the steps from `step` on: of one where words of responses stand behind it, else of many.
     #[inline(never)]
-    fn read_steps(&mut self, laws: &OrderLaws, random: &PlantRandom, key: LineageKey, step: u32, ahead: u32) {
+    pub fn read_steps(&mut self, laws: &OrderLaws, random: &PlantRandom, key: LineageKey, step: u32, ahead: u32) {
         let width = laws.step.width;
         let alone = !laws.step.spare.places().is_empty() && self.responds(laws);
         let most = WORDS_AT_ONCE[usize::from(self.steps.number > 0)] / width;
@@ -145,7 +157,9 @@ impl Words {
     #[inline]
     pub fn read_node(&mut self, laws: &OrderLaws, random: &PlantRandom, key: LineageKey, node: u32) {
         let of = &laws.node;
-        if of.width > 0 {
+        if self.of_bud.node == node && !self.of_bud.node_words.is_empty() {
+            self.on_node[..of.width].copy_from_slice(self.ahead.at(&self.of_bud.node_words));
+        } else if of.width > 0 {
             let stream = self.node.get_or_insert_with(|| random.stream(key, Purpose::Node));
             read(stream, 0, node, of.width, &mut self.on_node);
         }
@@ -155,21 +169,38 @@ impl Words {
         }
     }
 
-    /// Reads the records of the nodes that are planned, with as many words behind them as there can be things of one
-    /// kind on a node.
+    /// Reads the records of the nodes that are planned.
     pub fn read_nodes(&mut self, laws: &OrderLaws, random: &PlantRandom) {
-        let into = &mut self.nodes;
-        let width = laws.node.width;
-        into.resize(into.len().max(self.plan.nodes as usize * width + MOST_ON_NODE), 0);
-        if width == 0 {
-            return;
+        self.nodes.read(&self.plan, laws.node.width, random);
+    }
+
+    /// Reads words of buds before they grow to `age`, one after another in this order: those of their next steps and,
+    /// where they make their nodes `one_by_one`, of their next nodes.
+    pub fn read_ahead<'a>(
+        &mut self,
+        of: (&BudModel, &Plant),
+        buds: impl Iterator<Item = &'a ApicalBud>,
+        age: Tick,
+        one_by_one: bool,
+    ) {
+        self.ahead.read(of, buds, age, one_by_one);
+    }
+
+    /// Takes the words that were read ahead for the bud which grows next, if any.
+    fn take_ahead(&mut self, laws: &OrderLaws) {
+        let width = laws.step.width;
+        self.ahead.go_on(&mut self.of_bud);
+        if self.of_bud.steps > 0 {
+            let (first, number) = (self.of_bud.first, self.of_bud.steps as usize);
+            let into = self.steps.begin_at(first, number, laws.step.spare.words() + (number - 1) * width);
+            into[..number * width].copy_from_slice(self.ahead.of_steps(&self.of_bud));
         }
-        for shoot in &self.plan.shoots {
-            let words = shoot.nodes.0 as usize * width..shoot.nodes.1 as usize * width;
-            let mut stream = random.stream(shoot.key, Purpose::Node);
-            stream.seek(start(shoot.bud.rank, width as u32));
-            stream.read(&mut into[words]);
-        }
+    }
+
+    /// Whether the words of the next step are at hand.
+    #[inline]
+    pub fn are_ahead(&self) -> bool {
+        self.of_bud.steps > 0
     }
 
     /// One word of the responses of a clock step.

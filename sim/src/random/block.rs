@@ -32,8 +32,14 @@ impl Name {
     /// The last row of the state of block `counter`.
     #[inline(always)]
     pub fn last_row(&self, counter: u64) -> Row {
-        [counter as u32, (counter >> 32) as u32, self.stream as u32, (self.stream >> 32) as u32]
+        last_row(self.stream, counter)
     }
+}
+
+/// The last row of the state of block `counter` of the stream `stream`: all that blocks of one plant differ in.
+#[inline(always)]
+pub(super) fn last_row(stream: u64, counter: u64) -> Row {
+    [counter as u32, (counter >> 32) as u32, stream as u32, (stream >> 32) as u32]
 }
 
 /// Block `counter` of a stream.

@@ -3,6 +3,7 @@
 //! Every kernel makes the same words, so no result depends on the machine; tests compare each with `rand_chacha`. The
 //! standard library asks the processor once and keeps the answer. Here stands the `unsafe` of calls of such code.
 
+use super::Sought;
 use super::block::{Block, Name, block};
 #[cfg(target_arch = "x86_64")]
 use super::x86::{avx2, avx512, sse2};
@@ -73,6 +74,25 @@ impl Kernel {
         }
         for ((name, counter), block) in of.into_iter().zip(blocks) {
             self.fill(name, counter, std::slice::from_mut(block));
+        }
+    }
+
+    /// Makes blocks of many streams of the plant of `name`, whose own stream does not matter.
+    #[allow(unsafe_code, reason = "calls of functions whose instructions not every machine has")]
+    pub fn fill_apart(self, name: &Name, of: &[Sought], blocks: &mut [Block]) {
+        assert_eq!(of.len(), blocks.len());
+        // SAFETY: as in `fill`.
+        #[cfg(target_arch = "x86_64")]
+        unsafe {
+            match self.0 {
+                Code::Avx512 => return avx512::apart(name, of, blocks),
+                Code::Avx2 => return avx2::apart(name, of, blocks),
+                Code::Scalar | Code::Sse2 => {}
+            }
+        }
+        for (of, block) in of.iter().zip(blocks) {
+            let name = Name { stream: of.stream, ..name.clone() };
+            self.fill(&name, of.block, std::slice::from_mut(block));
         }
     }
 

@@ -20,6 +20,31 @@ pub use stream::Stream;
 
 use crate::key::{LineageKey, mix, scramble};
 use block::Name;
+use kernel::Kernel;
+
+/// The words of one block, as [`PlantRandom::make_blocks`] makes them: words 16 n to 16 n + 15 of a stream, where n is
+/// the number of the block.
+pub type WordBlock = [u32; WORDS_OF_BLOCK];
+
+/// How many words a block has.
+pub const WORDS_OF_BLOCK: usize = block::WORDS;
+
+/// A block of words of one stream.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Sought {
+    /// The number of the stream, by [`Sought::stream_of`].
+    pub stream: u64,
+    /// The number of the block, from 0.
+    pub block: u64,
+}
+
+impl Sought {
+    /// The number of the stream of an axis for a purpose.
+    #[inline]
+    pub fn stream_of(axis: LineageKey, purpose: Purpose) -> u64 {
+        mix(axis.0, purpose as u64)
+    }
+}
 
 /// What the words of a stream decide.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -96,7 +121,15 @@ impl PlantRandom {
 
     /// The stream of the axis with lineage key `axis`, standing at its first word.
     pub fn stream(&self, axis: LineageKey, purpose: Purpose) -> Stream {
-        Stream::new(Name { key: self.key, stream: mix(axis.0, purpose as u64) })
+        Stream::new(Name { key: self.key, stream: Sought::stream_of(axis, purpose) })
+    }
+
+    /// Makes blocks of many streams, each where it stands in `into`; there are as many places as blocks.
+    ///
+    /// Up to twelve are made side by side where the processor can, in a quarter of the time that each takes alone. So
+    /// whoever begins many axes makes the first words of all of them together.
+    pub fn make_blocks(&self, of: &[Sought], into: &mut [WordBlock]) {
+        Kernel::fastest().fill_apart(&Name { key: self.key, stream: 0 }, of, into);
     }
 }
 

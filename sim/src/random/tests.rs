@@ -90,6 +90,34 @@ fn two_streams_reached_together_have_the_words_of_each() {
     }
 }
 
+/// Blocks of many streams made side by side, as many as each kernel makes in another way, at counters around the carry.
+#[test]
+fn blocks_of_many_streams_have_the_words_of_each() {
+    let random = PlantRandom::new(3, 5);
+    let counters: Vec<u64> = counters().collect();
+    for kernel in Kernel::all() {
+        for number in 0..=37 {
+            for shift in [0, 11, counters.len() - 30] {
+                let purpose = |nth: usize| if nth.is_multiple_of(3) { Purpose::Node } else { Purpose::Bud };
+                let place = |nth: usize| {
+                    let axis = LineageKey(scramble(nth as u64 / 2));
+                    let stream = Sought::stream_of(axis, purpose(nth));
+                    Sought { stream, block: counters[(nth + shift) % counters.len()] }
+                };
+                let of: Vec<Sought> = (0..number).map(place).collect();
+                let mut blocks = vec![[7; WORDS]; number + 1];
+                let name = Name { key: random.key, stream: 99 };
+                kernel.fill_apart(&name, &of, &mut blocks[..number]);
+                assert_eq!(blocks[number], [7; WORDS], "{kernel:?} went on");
+                for (of, made) in of.iter().zip(&blocks) {
+                    let expected = block::block(&Name { key: random.key, stream: of.stream }, of.block);
+                    assert_eq!(*made, expected, "{kernel:?}, one of {number}: {of:?}");
+                }
+            }
+        }
+    }
+}
+
 /// Reads of each length from each place in a block, by each kernel, with what is at hand from the read before.
 #[test]
 fn reads_of_every_length_from_every_place_are_those_of_rand_chacha() {

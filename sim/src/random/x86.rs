@@ -8,7 +8,8 @@
 //! No pointer is used: registers become words by `bytemuck`, and slices are cut by their lengths. A function here may
 //! be called only where the machine has the instructions that it names, which `kernel` asks.
 
-use super::block::{Block, Name, WORDS};
+use super::Sought;
+use super::block::{Block, Name, WORDS, last_row};
 use bytemuck::cast;
 
 /// Turns of the words of a row to the left, as the shuffles of x86 state them: the sources of words 3 to 0, two bits
@@ -180,6 +181,36 @@ macro_rules! two_blocks_a_register {
             make(one, [cast([one.last_row(counter), other.last_row(count)])], &mut made);
             let [[first, second]] = made;
             [*blocks[0], *blocks[1]] = [first, second];
+        }
+
+        /// Blocks of many streams of the plant of `name`, as many as `blocks` holds. Those that fill no group are made
+        /// with some that are thrown away.
+        #[target_feature(enable = $features)]
+        pub fn apart(name: &Name, of: &[Sought], blocks: &mut [Block]) {
+            let (pairs, rest) = blocks.as_chunks_mut::<2>();
+            let (many, few) = pairs.as_chunks_mut::<$groups>();
+            let (of_many, of_rest) = of.split_at(many.len() * 2 * $groups);
+            for (blocks, of) in many.iter_mut().zip(of_many.as_chunks::<{ 2 * $groups }>().0) {
+                make(name, rows_apart(of), blocks);
+            }
+            if of_rest.is_empty() {
+                return;
+            }
+            let mut of = [Sought { stream: 0, block: 0 }; 2 * $groups];
+            of[..of_rest.len()].copy_from_slice(of_rest);
+            let mut made = [[[0; WORDS]; 2]; $groups];
+            make(name, rows_apart(&of), &mut made);
+            let places = few.as_flattened_mut().iter_mut().chain(rest);
+            places.zip(made.as_flattened()).for_each(|(place, block)| *place = *block);
+        }
+
+        /// The last rows of blocks of many streams.
+        #[inline]
+        #[target_feature(enable = $features)]
+        fn rows_apart(of: &[Sought; 2 * $groups]) -> [__m256i; $groups] {
+            std::array::from_fn(|group| {
+                cast([2 * group, 2 * group + 1].map(|place| last_row(of[place].stream, of[place].block)))
+            })
         }
 
         /// The last rows of the blocks of a stream from `counter` on.

@@ -62,7 +62,7 @@ impl NewAxes {
         }
         let Self { buds: things, released, .. } = self;
         let Some(zones) = &laws.zones else {
-            things.set(buds, laws.width);
+            things.set(buds, block.records);
             let mut node = 0;
             laws.axillary.chance.test_many(block.draws(things), |bud| {
                 while things.of(node).end <= bud {
@@ -93,7 +93,7 @@ impl NewAxes {
             return;
         }
         laws.count.draw_many(block.draws(nodes), &mut self.numbers);
-        self.reiterations.set(&self.numbers, block.laws.node.width);
+        self.reiterations.set(&self.numbers, block.records);
         let Self { reiterations, released, .. } = self;
         let axillary = released.len();
         let mut node = 0;

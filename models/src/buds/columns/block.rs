@@ -23,8 +23,11 @@ pub struct Block<'a> {
     pub zones: &'a [Ranks],
     /// The ranks from which the trends of axes hold, where they draw them.
     pub trends: &'a [(u32, u8)],
-    /// The records of the nodes.
+    /// The words in which the records of the nodes stand. Behind them stand as many more as there can be things of one
+    /// kind on a node.
     pub words: &'a [u32],
+    /// The place of the record of each node.
+    pub records: &'a [u32],
     /// The handle of the first node.
     pub first: NodeId,
 }
@@ -50,7 +53,7 @@ impl<'a> Block<'a> {
     /// The record of the node at a place of the block.
     #[inline]
     pub fn record(&self, node: usize) -> &'a [u32] {
-        &self.words[node * self.laws.node.width..]
+        &self.words[self.records[node] as usize..]
     }
 
     /// The draws of things of all nodes.

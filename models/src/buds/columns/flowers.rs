@@ -59,7 +59,7 @@ impl Flowers {
         if laws.flowers.fixed() == Some(0) {
             return;
         }
-        self.things.set(numbers, laws.width);
+        self.things.set(numbers, block.records);
         laws.flower_opens.test_many(block.draws(&self.things), |flower| self.open.push(flower as u32));
         if self.open.is_empty() {
             return;

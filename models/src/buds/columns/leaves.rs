@@ -26,28 +26,33 @@ impl Leaves {
     /// Draws the leaves of a block: `numbers` of them on its nodes, from the azimuths `first` on and `spacing` apart.
     pub fn draw(&mut self, block: &Block<'_>, numbers: &[u32], first: &[f32], spacing: &[f32]) {
         let law = &block.laws.node.leaf;
-        self.things.set(numbers, block.laws.node.width);
+        self.things.set(numbers, block.records);
         self.rows.clear();
         if self.things.len() == 0 {
             return;
         }
-        block.each(|node, piece, _| {
-            let leaf = |nth: u32| NewOrgan {
-                node: block.id(node),
-                kind: law.kind,
-                position: nth as u16,
-                birth: piece.at.age,
-                death: NEVER,
-                cause: Cause::None,
-                form: law.form,
-                length: 0.0,
-                width: 0.0,
-                area: 0.0,
-                azimuth: first[node] + spacing[node] * nth as f32,
-                insertion: 0.0,
-            };
-            self.rows.extend((0..numbers[node]).map(leaf));
-        });
+        self.rows.reserve(self.things.len());
+        for piece in block.pieces {
+            for node in piece.places() {
+                let (id, first, spacing) = (block.id(node), first[node], spacing[node]);
+                for nth in 0..numbers[node] {
+                    self.rows.push(NewOrgan {
+                        node: id,
+                        kind: law.kind,
+                        position: nth as u16,
+                        birth: piece.at.age,
+                        death: NEVER,
+                        cause: Cause::None,
+                        form: law.form,
+                        length: 0.0,
+                        width: 0.0,
+                        area: 0.0,
+                        azimuth: first + spacing * nth as f32,
+                        insertion: 0.0,
+                    });
+                }
+            }
+        }
         let draws = block.draws(&self.things);
         law.length.draw_many(draws, &mut self.rows, |leaf| &mut leaf.length);
         law.width.draw_many(draws, &mut self.rows, |leaf| &mut leaf.width);

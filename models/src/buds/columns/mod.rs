@@ -63,7 +63,7 @@ impl Columns {
     /// Draws everything of a block.
     fn draw(&mut self, block: &Block<'_>) {
         let laws = &block.laws.node;
-        self.of_nodes.set_nodes(block.nodes(), laws.width);
+        self.of_nodes.set_nodes(block.records);
         self.nodes.draw(block, &self.of_nodes);
         if laws.is_bare {
             self.bud_numbers.clear();

@@ -19,34 +19,79 @@ pub struct Numbers {
 impl Numbers {
     /// Numbers the components of a block from `first` on.
     pub fn set(&mut self, block: &Block<'_>, first: u32, leaves: &Leaves, flowers: &[NewOrgan], axes: &[NewAxis]) {
-        let Self { nodes, organs, axes: of_axes, mixed } = self;
-        [&mut *nodes, &mut *organs, &mut *of_axes].into_iter().for_each(Vec::clear);
-        mixed.clear();
-        let mut next = first;
-        let mut number = |into: &mut Vec<u32>, count: usize| {
-            let after = next + count as u32;
-            into.extend(next..after);
-            next = after;
+        [&mut self.nodes, &mut self.organs, &mut self.axes].into_iter().for_each(Vec::clear);
+        self.mixed.clear();
+        match (leaves.rows.is_empty(), flowers.is_empty()) {
+            (true, true) => self.set_bare(block, first, axes),
+            (false, true) => self.set_leafy(block, first, leaves, axes),
+            (_, false) => self.set_mixed(block, first, leaves, flowers, axes),
+        }
+    }
+
+    /// Nodes without organs: from one that bears an axis to the next their numbers follow one another.
+    fn set_bare(&mut self, block: &Block<'_>, first: u32, axes: &[NewAxis]) {
+        let (mut next, mut numbered) = (first, 0);
+        let mut number_up_to = |node: u32, next: &mut u32| {
+            let after = *next + (node - numbered);
+            self.nodes.extend(*next..after);
+            (*next, numbered) = (after, node);
         };
-        let (mut flowers_left, mut axes_left) = (flowers, axes);
+        for axis in axes {
+            number_up_to(bearer_of(axis, block) + 1, &mut next);
+            self.axes.push(next);
+            next += 1;
+        }
+        number_up_to(block.nodes() as u32, &mut next);
+    }
+
+    /// Nodes with leaves and axes.
+    fn set_leafy(&mut self, block: &Block<'_>, first: u32, leaves: &Leaves, axes: &[NewAxis]) {
+        let Self { nodes, organs, axes: of_axes, .. } = self;
+        organs.reserve(leaves.rows.len());
+        let mut bearers = axes.iter().map(|axis| bearer_of(axis, block)).peekable();
+        let (mut next, mut before) = (first, 0);
+        nodes.extend(leaves.things.ends().iter().zip(0..).map(|(&end, node)| {
+            let number = next;
+            next += 1;
+            for _ in before..end {
+                organs.push(next);
+                next += 1;
+            }
+            before = end;
+            while bearers.next_if_eq(&node).is_some() {
+                of_axes.push(next);
+                next += 1;
+            }
+            number
+        }));
+    }
+
+    /// Nodes with flowers, perhaps with leaves, and axes.
+    fn set_mixed(&mut self, block: &Block<'_>, first: u32, leaves: &Leaves, flowers: &[NewOrgan], axes: &[NewAxis]) {
+        let Self { nodes, organs, axes: of_axes, mixed } = self;
+        organs.reserve(leaves.rows.len() + flowers.len());
+        mixed.reserve(leaves.rows.len() + flowers.len());
+        let mut bearers = axes.iter().map(|axis| bearer_of(axis, block)).peekable();
+        let (mut next, mut flowers) = (first, flowers.iter().peekable());
         for node in 0..block.nodes() {
             let id = block.id(node);
-            number(nodes, 1);
+            nodes.push(next);
+            next += 1;
+            let mut place = |organ: &NewOrgan| {
+                mixed.push(*organ);
+                organs.push(next);
+                next += 1;
+            };
             if !leaves.rows.is_empty() {
-                number(organs, leaves.things.of(node).len());
+                leaves.rows[leaves.things.of(node)].iter().for_each(&mut place);
             }
-            if !flowers.is_empty() {
-                let (here, later) = parted(flowers_left, |organ| organ.node == id);
-                number(organs, here.len());
-                if !leaves.rows.is_empty() {
-                    mixed.extend_from_slice(&leaves.rows[leaves.things.of(node)]);
-                }
-                mixed.extend_from_slice(here);
-                flowers_left = later;
+            while let Some(flower) = flowers.next_if(|flower| flower.node == id) {
+                place(flower);
             }
-            let (here, later) = parted(axes_left, |axis| axis.bearer == Some(id));
-            number(of_axes, here.len());
-            axes_left = later;
+            while bearers.next_if_eq(&(node as u32)).is_some() {
+                of_axes.push(next);
+                next += 1;
+            }
         }
     }
 
@@ -56,9 +101,8 @@ impl Numbers {
     }
 }
 
-/// Parts the first entries, which stand on one node, from the others.
+/// The place in the block of the node that bears a new axis.
 #[inline]
-fn parted<T>(entries: &[T], on_node: impl Fn(&T) -> bool) -> (&[T], &[T]) {
-    let here = entries.iter().take_while(|entry| on_node(entry)).count();
-    entries.split_at(here)
+fn bearer_of(axis: &NewAxis, block: &Block<'_>) -> u32 {
+    axis.bearer.map_or(0, |bearer| bearer.0 - block.first.0)
 }

@@ -90,6 +90,12 @@ impl HeadLaws {
 }
 
 impl SpeedLaws {
+    /// The speed of every axis, where none is drawn.
+    #[inline]
+    pub fn only(&self) -> Option<Speed> {
+        self.pick.fixed().and_then(|pick| self.speeds.get(pick as usize).copied())
+    }
+
     /// The speed of an axis.
     #[inline]
     pub fn draw(&self, words: &[u32]) -> Speed {

@@ -43,6 +43,9 @@ pub struct StepLaws {
     pub transitions: Vec<Passage>,
     /// The ranks of the zones; drawn once a unit.
     pub zone_ranks: ZoneRanks,
+    /// Whether each step has at most one growth unit, of preformed nodes and zones that are not drawn, and neither a
+    /// terminal flower nor relays.
+    pub is_plain: bool,
 }
 
 /// A passage between states.
@@ -92,7 +95,7 @@ impl StepLaws {
             let found = format!("a growth unit can have {} nodes", long_nodes.max() + neoformed.max());
             compiler.fault("growth_unit.neoformed", found, "at most 65535 nodes, preformed and neoformed together");
         }
-        Self {
+        let mut laws = Self {
             death,
             pause,
             flower,
@@ -105,7 +108,18 @@ impl StepLaws {
             zone_ranks: ZoneRanks::compile(order, compiler, &mut layout, most_units),
             width: layout.width(),
             spare: Spare::after(layout.width()),
-        }
+            is_plain: false,
+        };
+        laws.is_plain = laws.are_plain();
+        laws
+    }
+
+    /// Whether each step has at most one growth unit, of preformed nodes and zones that are not drawn, and neither a
+    /// terminal flower nor relays. No response makes a number or a flower out of none.
+    fn are_plain(&self) -> bool {
+        let one_unit = self.per_step.fixed() == Some(1) && self.neoformed.fixed() == Some(0);
+        let flowerless = self.flower.is_never() && !self.transitions.iter().any(|passage| passage.relayed);
+        one_unit && flowerless && !self.zone_ranks.are_drawn()
     }
 
     /// Lets hazards join the mortality of a bud.

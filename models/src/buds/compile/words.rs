@@ -6,8 +6,10 @@
 //! in a shorter run too. What responses need beyond it has a stream of its own ([`Spare`]).
 
 mod many;
+mod steps;
 
 pub use many::{Draws, Outcome, Piece, Things};
+pub use steps::Tested;
 
 use super::change::{ByAge, Change, nodes_times};
 use crate::law::{At, CountTable, ProbabilityTable, Threshold, Variable, VariateTable};

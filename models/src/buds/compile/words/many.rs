@@ -57,24 +57,33 @@ pub struct Things {
 }
 
 impl Things {
-    /// Makes these the `numbers` of things of nodes whose records have `width` words.
-    pub fn set(&mut self, numbers: &[u32], width: usize) {
+    /// Makes these the `numbers` of things of nodes whose records stand at the places `records`.
+    pub fn set(&mut self, numbers: &[u32], records: &[u32]) {
         self.words.clear();
         self.ends.clear();
-        self.ends.reserve(numbers.len());
-        for (node, &number) in numbers.iter().enumerate() {
-            let record = (node * width) as u32;
-            self.words.extend((0..number).map(|nth| record + nth));
-            self.ends.push(self.words.len() as u32);
+        let mut sum = 0;
+        self.ends.extend(numbers.iter().map(|number| {
+            sum += number;
+            sum
+        }));
+        self.words.reserve(sum as usize);
+        for (&number, &record) in numbers.iter().zip(records) {
+            (record..record + number).for_each(|word| self.words.push(word));
         }
     }
 
-    /// Makes these nodes, whose records have `width` words.
-    pub fn set_nodes(&mut self, nodes: usize, width: usize) {
+    /// Makes these nodes whose records stand at the places `records`.
+    pub fn set_nodes(&mut self, records: &[u32]) {
         self.words.clear();
         self.ends.clear();
-        self.words.extend((0..nodes).map(|node| (node * width) as u32));
-        self.ends.extend(1..=nodes as u32);
+        self.words.extend_from_slice(records);
+        self.ends.extend(1..=records.len() as u32);
+    }
+
+    /// For each node the number of things up to its last.
+    #[inline]
+    pub fn ends(&self) -> &[u32] {
+        &self.ends
     }
 
     /// Makes these some of the things of the same nodes, at the places `chosen`, which rise.
@@ -109,7 +118,8 @@ impl Things {
 /// Things for which quantities are drawn, with their words and the points of their laws.
 #[derive(Debug, Clone, Copy)]
 pub struct Draws<'a> {
-    /// The records of the nodes. Behind them stand as many words more as there can be things on a node.
+    /// The words in which the records of the nodes stand. Behind them stand as many more as there can be things on a
+    /// node.
     pub words: &'a [u32],
     pub pieces: &'a [Piece],
     pub things: &'a Things,

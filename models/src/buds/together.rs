@@ -1,0 +1,183 @@
+//! Words of many streams, made together: those of the nodes of a block, and the next ones of buds that grow one after
+//! another.
+//!
+//! A block of words is made faster beside others than alone, and those of different streams of a plant as fast as those
+//! of one. The words stay where they are made: each record is known by its place. Absent: what the words decide.
+
+use super::bud::ApicalBud;
+use super::compile::{BudModel, OrderLaws};
+use super::plan::Plan;
+use phytomer_sim::clock::Tick;
+use phytomer_sim::plant::Plant;
+use phytomer_sim::random::{PlantRandom, Purpose, Sought, WORDS_OF_BLOCK, WordBlock};
+use std::ops::Range;
+
+/// No node has as many things of one kind, in blocks of words.
+const MOST_ON_NODE: usize = 64 / WORDS_OF_BLOCK;
+
+/// The words that an axis which goes through many steps reads at once, the first time and later: blocks of a stream are
+/// made faster many at once, but an axis may die soon.
+pub(super) const WORDS_AT_ONCE: [usize; 2] = [32, 96];
+
+/// The records of the nodes of a block.
+#[derive(Debug, Default)]
+pub(super) struct NodeWords {
+    sought: Vec<Sought>,
+    blocks: Vec<WordBlock>,
+    /// The place of the record of each node among the words.
+    pub records: Vec<u32>,
+}
+
+impl NodeWords {
+    /// Reads the records, of `width` words each, of the nodes that are planned.
+    pub fn read(&mut self, plan: &Plan, width: usize, random: &PlantRandom) {
+        let Self { sought, blocks, records } = self;
+        sought.clear();
+        records.clear();
+        if width == 0 {
+            records.resize(plan.nodes as usize, 0);
+        } else {
+            for shoot in &plan.shoots {
+                let nodes = (shoot.nodes.1 - shoot.nodes.0) as usize;
+                let start = u64::from(shoot.bud.rank) * width as u64;
+                let place = sought.len() * WORDS_OF_BLOCK + start as usize % WORDS_OF_BLOCK;
+                records.extend((0..nodes).map(|node| (place + node * width) as u32));
+                seek(sought, Sought::stream_of(shoot.key, Purpose::Node), start..start + (nodes * width) as u64);
+            }
+        }
+        make(sought, blocks, MOST_ON_NODE, random);
+    }
+
+    /// All words. Behind the records stand as many more as there can be things of one kind on a node.
+    pub fn words(&self) -> &[u32] {
+        self.blocks.as_flattened()
+    }
+}
+
+/// Seeks the blocks of a stream in which some of its words stand.
+#[inline]
+fn seek(sought: &mut Vec<Sought>, stream: u64, words: Range<u64>) {
+    let blocks = words.start / WORDS_OF_BLOCK as u64..words.end.div_ceil(WORDS_OF_BLOCK as u64);
+    sought.extend(blocks.map(|block| Sought { stream, block }));
+}
+
+/// Makes the blocks that are sought, with room for `more` behind them.
+fn make(sought: &[Sought], blocks: &mut Vec<WordBlock>, more: usize, random: &PlantRandom) {
+    let number = sought.len();
+    if blocks.len() < number + more {
+        blocks.resize(number + more, [0; WORDS_OF_BLOCK]);
+    }
+    random.make_blocks(sought, &mut blocks[..number]);
+}
+
+/// The words that buds read next, which grow one after another: the records of their next steps, and of their next node
+/// where they make nodes one by one.
+#[derive(Debug, Default)]
+pub(super) struct Ahead {
+    sought: Vec<Sought>,
+    blocks: Vec<WordBlock>,
+    buds: Vec<OfBud>,
+    /// The bud that grows next.
+    next: usize,
+}
+
+/// The words of one bud.
+#[derive(Debug, Clone, Default)]
+pub(super) struct OfBud {
+    /// The number of its next step, from 0, and how many steps have their words here.
+    pub first: u32,
+    pub steps: u32,
+    /// Where the words of the steps stand.
+    words: Range<u32>,
+    /// The number of its next node, from 0.
+    pub node: u32,
+    /// Where the words of the node stand; none where it needs none.
+    pub node_words: Range<u32>,
+}
+
+impl Ahead {
+    /// Forgets all buds.
+    pub fn clear(&mut self) {
+        self.buds.clear();
+        self.next = 0;
+    }
+
+    /// Reads words of buds which are about to grow to `age`, in this order. A bud that makes its nodes `one_by_one`,
+    /// and one at each step unless it dies, reads those of its next node too.
+    pub fn read<'a>(
+        &mut self,
+        (model, plant): (&BudModel, &Plant),
+        buds: impl Iterator<Item = &'a ApicalBud>,
+        age: Tick,
+        one_by_one: bool,
+    ) {
+        self.clear();
+        self.sought.clear();
+        for bud in buds {
+            let axis = bud.axis.index();
+            let laws = model.laws(plant.axes.order[axis]);
+            let key = plant.axes.key[axis];
+            let mut of = OfBud { first: bud.cycle, node: bud.rank, ..OfBud::default() };
+            let (head, width) = (laws.head.width as u64, laws.step.width as u64);
+            of.steps = steps_at_once(laws, plant, bud, age).unwrap_or(0);
+            if of.steps > 0 {
+                let start = head + u64::from(of.first) * width;
+                let words = start..start + u64::from(of.steps) * width;
+                of.words = self.seek(Sought::stream_of(key, Purpose::Bud), words);
+                let width = laws.node.width as u64;
+                let makes_one = laws.node.most_nodes == 1 && laws.step.pause.is_never();
+                if one_by_one && makes_one && width > 0 {
+                    let start = u64::from(of.node) * width;
+                    of.node_words = self.seek(Sought::stream_of(key, Purpose::Node), start..start + width);
+                }
+            }
+            self.buds.push(of);
+        }
+        make(&self.sought, &mut self.blocks, 0, &plant.random);
+    }
+
+    /// Seeks some words of a stream; where they will stand.
+    #[inline]
+    fn seek(&mut self, stream: u64, words: Range<u64>) -> Range<u32> {
+        let start = (self.sought.len() * WORDS_OF_BLOCK) as u32 + words.start as u32 % WORDS_OF_BLOCK as u32;
+        let length = (words.end - words.start) as u32;
+        seek(&mut self.sought, stream, words);
+        start..start + length
+    }
+
+    /// Goes on to the bud that grows next, which becomes `of`.
+    #[inline]
+    pub fn go_on(&mut self, of: &mut OfBud) {
+        match self.buds.get(self.next) {
+            Some(next) => of.clone_from(next),
+            None => *of = OfBud::default(),
+        }
+        self.next += 1;
+    }
+
+    /// The words of the steps of a bud.
+    #[inline]
+    pub fn of_steps(&self, of: &OfBud) -> &[u32] {
+        self.at(&of.words)
+    }
+
+    /// The words at a place.
+    #[inline]
+    pub fn at(&self, words: &Range<u32>) -> &[u32] {
+        &self.blocks.as_flattened()[words.start as usize..words.end as usize]
+    }
+}
+
+/// The number of steps that a bud reads at once when it begins to grow to `age`; `None` where that is not known before.
+/// Where words of responses stand behind each step it is one.
+fn steps_at_once(laws: &OrderLaws, plant: &Plant, bud: &ApicalBud, age: Tick) -> Option<u32> {
+    let width = laws.step.width as u32;
+    if width == 0 {
+        return None;
+    }
+    let steps = laws.head.speed.only()?.steps_by(age.saturating_sub(plant.axes.birth[bud.axis.index()]));
+    let reads_responses = !laws.step.spare.places().is_empty();
+    let alone = reads_responses && !(laws.light_alone && plant.shade.of(bud.axis) == 0);
+    let most = if alone { 1 } else { (WORDS_AT_ONCE[0] as u32 / width).max(1) };
+    Some(steps.saturating_sub(bud.cycle).min(most))
+}
