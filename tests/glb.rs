@@ -64,6 +64,8 @@ fn every_glb_is_valid() {
         ("full", vec!["coffee", "--age", "12"], 0),
         ("near", vec!["coffee", "--age", "18", "--tolerance", "2mm"], 0),
         ("seed", vec!["coffee", "--age", "0"], 0),
+        ("levels", vec!["coffee", "--age", "18", "--lods", "4"], 0),
+        ("levels of nothing", vec!["coffee", "--age", "0", "--lods", "4"], 0),
         ("plot", vec!["under_a_roof", "--plot", "--age", "4", "--tolerance", "5mm"], 0),
         ("surfaces", vec!["borchert_slade", "--age", "5", "--tolerance", "2mm"], 0),
         ("surfaces that grow", vec!["borchert_slade", "--ages", "1..5", "--keys", "3"], 1),

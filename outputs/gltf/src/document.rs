@@ -82,6 +82,8 @@ pub struct Document {
     /// Extensions that the file uses, and those of them without which it cannot be read.
     pub uses: Vec<&'static str>,
     pub requires: Vec<&'static str>,
+    /// Other lists: images, textures and samplers, by their names.
+    pub more: Map<String, Value>,
     views: Vec<Value>,
     accessors: Vec<Value>,
     bytes: u64,
@@ -191,6 +193,7 @@ impl Document {
         for (name, list) in lists.into_iter().filter(|(_, list)| !list.is_empty()) {
             file[name] = list.into();
         }
+        self.more.into_iter().for_each(|(name, list)| file[name] = list);
         file
     }
 }

@@ -112,24 +112,39 @@ impl<'a> Still<'a> {
     /// # Errors As [`write_still`].
     pub fn write(&self, mut file: Document, bytes: &[u8], out: &mut (dyn Write + Send)) -> io::Result<()> {
         file.extras.extend(extras_of(self.mesh));
-        let name = self.mesh.notes().into_iter().next().unwrap_or_default();
-        let node = if let Some(mesh) = self.enter(&mut file, &name) {
-            let skin = self.skin.map(|_| json!(0));
-            let mut node = json!({ "name": name, "mesh": mesh });
-            skin.into_iter().for_each(|skin| node["skin"] = skin);
-            node
-        } else {
-            json!({ "name": name })
-        };
+        let node = self.enter_node(&mut file, "");
         let node = file.node(node);
         file.roots.push(node);
         file.write_head(out)?;
         out.write_all(bytes)?;
+        self.write_bytes(out)
+    }
+
+    /// Enters the mesh; its node, whose name ends in `ending`.
+    pub fn enter_node(&self, file: &mut Document, ending: &str) -> Value {
+        let name = self.mesh.notes().into_iter().next().unwrap_or_default() + ending;
+        let Some(mesh) = self.enter(file, &name) else { return json!({ "name": name }) };
+        let mut node = json!({ "name": name, "mesh": mesh });
+        self.skin.iter().for_each(|_| node["skin"] = json!(0));
+        node
+    }
+
+    /// Writes the bytes of the views of the mesh, in the order in which they are entered.
+    ///
+    /// # Errors
+    /// Those of `out`.
+    pub fn write_bytes(&self, out: &mut (dyn Write + Send)) -> io::Result<()> {
         for class in self.classes() {
             self.write_vertices(class, out)?;
             self.write_faces(class, out)?;
         }
         Ok(())
+    }
+
+    /// The number of these bytes, about.
+    pub fn bytes(&self) -> u64 {
+        let counts = self.mesh.counts();
+        counts.vertices * self.stride() + counts.faces * 12
     }
 
     fn classes(&self) -> impl Iterator<Item = usize> {

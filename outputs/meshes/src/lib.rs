@@ -11,6 +11,7 @@ mod attributes;
 mod blocks;
 mod boxes;
 mod budget;
+mod cards;
 mod chunk;
 mod collection;
 mod colour;
@@ -43,6 +44,7 @@ mod tests;
 mod tests_range;
 #[cfg(test)]
 mod tests_stated;
+mod thinned;
 mod tube;
 mod welded;
 mod wood;
@@ -50,6 +52,7 @@ mod wood;
 pub use blocks::TakeAlone;
 pub use boxes::Boxing;
 pub use budget::{TooFew, fitting, nearest};
+pub use cards::{Card, Cards};
 pub use chunk::{Chunk, Counts, Face, Sink, Tag, Vertex};
 pub use collection::Collection;
 pub use colour::linear;
@@ -71,6 +74,7 @@ pub use scene::{DrawnOrgan, Scene};
 pub use solid::{Solid, Undrawn};
 pub use stem::Stems;
 pub use stl::write_stl;
+pub use thinned::{MOST_LARGER, Thinned, organ_number};
 pub use tube::Frustum;
 
 use phytomer_looks::place_of_own;
@@ -105,6 +109,9 @@ pub enum Keeping {
     Section,
     /// Its circumference, which is π times the mean width, so that thin wood is seen as wide as it is.
     Width,
+    /// The circumference of the polygon of so many sides that keeps its area, so that wood is seen as wide as tubes of
+    /// single internodes of as many sides are.
+    Tube(u8),
 }
 
 impl Tolerance {
@@ -182,6 +189,8 @@ pub struct MeshOptions {
     pub attributes: bool,
     /// How finely organs are drawn, from 0, a few polygons, to [`phytomer_looks::MOST_DETAIL`].
     pub detail: u8,
+    /// Which organs are drawn, each for others too; `None`: all.
+    pub thinned: Option<Thinned>,
 }
 
 impl MeshOptions {
@@ -224,6 +233,7 @@ impl Default for MeshOptions {
             swings: None,
             attributes: false,
             detail: 0,
+            thinned: None,
         }
     }
 }
