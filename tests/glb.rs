@@ -65,6 +65,7 @@ fn every_glb_is_valid() {
         ("near", vec!["coffee", "--age", "18", "--tolerance", "2mm"], 0),
         ("seed", vec!["coffee", "--age", "0"], 0),
         ("levels", vec!["coffee", "--age", "18", "--lods", "4"], 0),
+        ("cards", vec!["wp/quaking_aspen", "--lods", "3", "--cards"], 0),
         ("levels of nothing", vec!["coffee", "--age", "0", "--lods", "4"], 0),
         ("plot", vec!["under_a_roof", "--plot", "--age", "4", "--tolerance", "5mm"], 0),
         ("surfaces", vec!["borchert_slade", "--age", "5", "--tolerance", "2mm"], 0),

@@ -7,7 +7,7 @@
 //! `asset.extras.levels`. Absent: which levels there are (`phytomer_pictures::levels`).
 
 use super::document::{Accessor, Document, INDICES, MOST_BYTES, Number, VERTICES, pad, too_large};
-use super::still::{Still, y_up};
+use super::still::{Still, unit, y_up};
 use phytomer_meshes::{Cards, Drawing};
 use serde_json::{Map, Value, json};
 use std::io::{self, Write};
@@ -76,14 +76,18 @@ pub fn write_levels(levels: &[Level], cards: Option<&LastCards>, out: &mut (dyn 
 
 /// Enters cards with their atlas, and makes the bytes of their views; their node.
 fn enter_cards(file: &mut Document, cards: &Cards, name: &str, bytes: &mut Vec<u8>) -> Value {
-    const STRIDE: u64 = 32;
+    const STRIDE: u64 = 48;
     let (mut corners, mut faces) = (Vec::new(), Vec::new());
     let (mut low, mut high) = ([f32::INFINITY; 3], [f32::NEG_INFINITY; 3]);
     for (number, card) in (0..).zip(&cards.cards) {
+        let right: [f32; 3] = std::array::from_fn(|k| card.corners[1][k] - card.corners[0][k]);
+        let right = unit(right);
         for (at, [s, t]) in card.corners.iter().zip(card.texture) {
             let at = y_up(*at);
             (0..3).for_each(|k| (low[k], high[k]) = (low[k].min(at[k]), high[k].max(at[k])));
             let numbers = at.into_iter().chain(y_up(card.normal)).chain([s, 1.0 - t]);
+            // The normals of the atlas are told to the right, up and towards the viewer.
+            let numbers = numbers.chain(y_up(right)).chain([1.0]);
             corners.extend(numbers.flat_map(f32::to_le_bytes));
         }
         faces.extend(Cards::FACES.iter().flatten().flat_map(|corner| (4 * number + corner).to_le_bytes()));
@@ -95,6 +99,7 @@ fn enter_cards(file: &mut Document, cards: &Cards, name: &str, bytes: &mut Vec<u
         "POSITION": file.accessor(of("VEC3", 0).within([low, high])),
         "NORMAL": file.accessor(of("VEC3", 12)),
         "TEXCOORD_0": file.accessor(of("VEC2", 24)),
+        "TANGENT": file.accessor(of("VEC4", 32)),
     });
     let of_faces = file.view(faces.len() as u64, None, Some(INDICES));
     let indices = file.accessor(Accessor::of(of_faces, Number::U32, "SCALAR", 3 * cards.faces()));
