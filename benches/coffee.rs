@@ -1,6 +1,7 @@
 //! The coffee tree: a bushy plant with leaves, flowers and fruits, and its population.
 //!
-//! Growth in both orders, and frames, each against a plain write of its columns. `docs/performance.md` has the table.
+//! Growth in both orders, and frames, each against a plain write of its columns; levels of detail beside the first.
+//! `docs/performance.md` has the table.
 
 mod specimen;
 
@@ -11,6 +12,7 @@ fn coffee(criterion: &mut Criterion) {
     let coffee = Specimen::of("coffee");
     coffee.growth(criterion, true);
     coffee.frames(criterion);
+    coffee.levels_of_detail(36);
 }
 
 criterion_group!(benches, coffee);

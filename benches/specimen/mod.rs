@@ -11,6 +11,7 @@ pub mod bending;
 pub mod budget;
 pub mod columns;
 pub mod files;
+pub mod levels;
 pub mod picture;
 pub mod turns;
 

@@ -101,7 +101,10 @@ fn metres(text: &str) -> Result<f64, String> {
 }
 
 /// A count, also in thousands (k) and millions (M).
-fn triangles(text: &str) -> Result<u64, String> {
+///
+/// # Errors
+/// What is expected.
+pub fn triangles(text: &str) -> Result<u64, String> {
     let expected = "a count from 1 on is expected, such as 200000, 200k or 1.5M";
     let scales = [('k', 1e3), ('K', 1e3), ('M', 1e6)];
     let scaled = scales.iter().find_map(|(letter, scale)| Some((text.strip_suffix(*letter)?, *scale)));

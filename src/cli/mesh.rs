@@ -8,6 +8,7 @@ mod formats;
 mod joints;
 mod keyed;
 mod life;
+mod lods;
 mod measured;
 mod rig;
 mod usd;
@@ -27,6 +28,7 @@ use dressing::Dressing;
 use formats::Format;
 use joints::Joining;
 use life::Growing;
+use lods::Lods;
 use phytomer::run::drawing::{check_size, options_of};
 use phytomer::run::picturing::{PicturedStand, pictured_plants_at, pictured_plot_at, plot_mesh};
 use phytomer_outputs::Destination;
@@ -60,6 +62,8 @@ Examples:
   phytomer mesh monocarp --ages 20..34 --detail 2 --out bloom.usdc
   phytomer mesh runs/walnut --joints welded --out walnut.stl
   phytomer mesh wp/quaking_aspen --levels 0-1 --out collision.ply
+  phytomer mesh wp/quaking_aspen --lods 4 --cards --out levels.glb
+  phytomer mesh coffee --age 36 --lods 8k,4k --out coffee.ply
   phytomer mesh wp/quaking_aspen --range 120 --fov 30 --bark 0.5 --out far.glb
   phytomer mesh wp/quaking_aspen --wind 5 --gust 3 --time 0.4 --out swaying.ply
 
@@ -107,10 +111,15 @@ pub struct Mesh {
     #[command(flatten)]
     growing: Growing,
     #[command(flatten)]
+    lods: Lods,
+    #[command(flatten)]
     rig: Rig,
     #[command(flatten)]
     breeze: Breeze,
 }
+
+/// Takes a plant as it is drawn, with what is told of it, and returns what is told in the end.
+type Take<'t> = dyn FnMut(&str, &Scene) -> Result<Result<String, Misuse>> + 't;
 
 impl Mesh {
     pub fn obey(self) -> Result<Verdict> {
@@ -123,6 +132,7 @@ impl Mesh {
             return measured::write(&self, &measured, format);
         }
         self.joining.check(self.growing.is_asked() || self.rig.asked().is_some())?;
+        self.lods.check(&self.out, format)?;
         colouring::whole("--age", self.age.as_slice(), self.dressing.colour_by.as_ref())?;
         let ages: Vec<Tick> = self.age.iter().map(|age| age.tick()).chain(self.growing.last()).collect();
         match Regrown::find(&self.name, &self.constants, &ages)? {
@@ -161,15 +171,27 @@ impl Mesh {
             _ if self.growing.is_asked() && matches!(format, Format::Usd(..)) => usd::write(self, regrown, format),
             _ if self.growing.is_asked() => keyed::write(self, regrown),
             Some(plot) => self.write_plot(regrown, plot, format),
+            None if self.lods.asked().is_some() => lods::write(self, regrown, format),
             None => self.write_plant(regrown, format),
         }
     }
 
     fn write_plant(&self, regrown: &Regrown, format: Format) -> Result<Verdict> {
+        let mut file = Destination::create(&self.out)?;
+        let told = self.show_plant(regrown, &mut |what, scene| {
+            let written =
+                check_size(scene).and_then(|()| format.write_plant(scene, regrown.scenario.seed, &mut file, &self.out));
+            written.with_context(|| self.failing())?;
+            Ok(Ok(what.to_owned()))
+        })?;
+        self.tell(file, &told)
+    }
+
+    /// Shows the plant as it is asked for, with what is told of it; returns what the taker tells.
+    fn show_plant(&self, regrown: &Regrown, take: &mut Take) -> Result<String> {
         let age = self.age.unwrap_or_else(|| regrown.trial.last_age_of(self.plant).into());
         regrown.check(("--age", &[age.age()]), ("--plant", &[self.plant]))?;
         let regrowth = regrown.regrowth(&self.breeze)?.falling(self.fall.fall);
-        let mut file = Destination::create(&self.out)?;
         let own = regrown.forms.get(regrown.trial.species_of_plant(self.plant)).cloned().unwrap_or_default();
         let mut options = options_of(self.sides, &own);
         self.joining.dress(&mut options);
@@ -179,32 +201,30 @@ impl Mesh {
             let (colours, meaning) = self.dressing.paint(&pictured, regrown)?;
             (options.colours, by) = (colours.into_iter().next(), meaning);
         }
-        let (seed, what) = (regrown.scenario.seed, format!("plant {} at age {}", self.plant, age.age()));
-        let mut refused = None;
+        let what = format!("plant {} at age {}", self.plant, age.age());
+        let (mut told, mut refused) = (String::new(), Ok(()));
         regrowth.show_at(self.plant, &[age], &mut |age, plant| {
             let age = age.tick();
             options.seen = self.part.seen(regrown.species_of(self.plant), age, self.range, true);
             self.dressing.dress(&mut options, regrown, plant);
-            if let Err(misuse) = self.settle(&what, (plant, age), &mut options) {
-                refused = Some(misuse);
+            refused = self.settle(&what, (plant, age), &mut options);
+            if refused.is_err() {
                 return Ok(());
             }
             let scene = Scene::new(plant, age, &options);
-            if let Err(misuse) = self.joining.has_wood(&what, [&scene]) {
-                refused = Some(misuse);
-                return Ok(());
-            }
-            let written = check_size(&scene).and_then(|()| format.write_plant(&scene, seed, &mut file, &self.out));
-            Ok(written.with_context(|| self.failing())?)
-        })?;
-        match refused {
-            Some(misuse) => Err(misuse.into()),
-            None => {
+            refused = self.joining.has_wood(&what, [&scene]);
+            if refused.is_ok() {
                 let seen = self.part.in_words() + &afar::in_words(options.seen.afar);
-                let joined = self.joining.in_words();
-                self.tell(file, &format!("{what}{seen}{}{joined}{by}", in_words(options.tolerance.as_ref())))
+                let (within, joined) = (in_words(options.tolerance.as_ref()), self.joining.in_words());
+                match take(&format!("{what}{seen}{within}{joined}{by}"), &scene)? {
+                    Ok(words) => told = words,
+                    Err(misuse) => refused = Err(misuse),
+                }
             }
-        }
+            Ok(())
+        })?;
+        refused?;
+        Ok(told)
     }
 
     /// Makes the mesh of a plant as fine as it is asked for: of a tree of stems that may have so many triangles, by the

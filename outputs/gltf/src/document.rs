@@ -82,8 +82,8 @@ pub struct Document {
     images: Vec<Value>,
     samplers: Vec<Value>,
     textures: Vec<Value>,
-    /// The pictures of the images, in their order.
-    pictures: Vec<Arc<Picture>>,
+    /// The pictures that are in the file, and their images.
+    pictures: Vec<(Arc<Picture>, usize)>,
     pub skins: Vec<Value>,
     pub animations: Vec<Value>,
     /// Extensions that the file uses, and those of them without which it cannot be read.
@@ -150,16 +150,27 @@ impl Document {
     /// Enters a picture as a texture, unless it is there; its index. Its bytes are added to those of the views. On bark
     /// it repeats, on an organ it ends at its edges.
     pub fn texture(&mut self, picture: &Arc<Picture>, repeats: bool, bytes: &mut Vec<u8>) -> usize {
-        let known = self.pictures.iter().position(|known| known == picture);
+        let known = self.pictures.iter().find(|(known, _)| known == picture).map(|(_, image)| *image);
         let image = known.unwrap_or_else(|| {
-            let view = self.view(picture.bytes.len() as u64, None, None);
-            bytes.extend_from_slice(&picture.bytes);
-            bytes.resize(padded(bytes.len() as u64) as usize, 0);
             let kind = if picture.is_jpeg { "image/jpeg" } else { "image/png" };
-            self.images.push(json!({ "name": picture.name, "bufferView": view, "mimeType": kind }));
-            self.pictures.push(Arc::clone(picture));
-            self.images.len() - 1
+            let image = self.image((&picture.name, kind), &picture.bytes, bytes);
+            self.pictures.push((Arc::clone(picture), image));
+            image
         });
+        self.sampled(image, repeats)
+    }
+
+    /// Enters the bytes of a picture with a name and a type, and adds them to those of the views; its index.
+    pub fn image(&mut self, (name, kind): (&str, &str), picture: &[u8], bytes: &mut Vec<u8>) -> usize {
+        let view = self.view(picture.len() as u64, None, None);
+        bytes.extend_from_slice(picture);
+        bytes.resize(padded(bytes.len() as u64) as usize, 0);
+        self.images.push(json!({ "name": name, "bufferView": view, "mimeType": kind }));
+        self.images.len() - 1
+    }
+
+    /// Enters an image as a texture that repeats or ends at its edges, unless it is there; its index.
+    pub fn sampled(&mut self, image: usize, repeats: bool) -> usize {
         let wrap = if repeats { 10497 } else { 33071 };
         // Linear between pixels, and between the pictures of two sizes.
         let sampler = json!({ "magFilter": 9729, "minFilter": 9987, "wrapS": wrap, "wrapT": wrap });

@@ -117,19 +117,34 @@ impl<'a> Still<'a> {
     /// # Errors As [`write_still`].
     pub fn write(&self, mut file: Document, mut bytes: Vec<u8>, out: &mut (dyn Write + Send)) -> io::Result<()> {
         file.extras.extend(extras_of(self.mesh));
-        let name = self.mesh.notes().into_iter().next().unwrap_or_default();
-        let node = if let Some(mesh) = self.enter(&mut file, &name, &mut bytes) {
-            let skin = self.skin.map(|_| json!(0));
-            let mut node = json!({ "name": name, "mesh": mesh });
-            skin.into_iter().for_each(|skin| node["skin"] = skin);
-            node
-        } else {
-            json!({ "name": name })
-        };
+        let node = self.enter_node(&mut file, "", &mut bytes);
         let node = file.node(node);
         file.roots.push(node);
         file.write_head(out)?;
         out.write_all(&bytes)?;
+        self.write_bytes(out)
+    }
+
+    /// Enters the materials of the mesh, and adds the bytes of their pictures to those of the views.
+    pub fn enter_materials(&self, file: &mut Document, bytes: &mut Vec<u8>) {
+        self.filled().for_each(|slot| _ = enter_material(&self.slots.list()[slot], file, bytes));
+    }
+
+    /// Enters the mesh; its node, whose name ends in `ending`. The bytes of pictures that are not in the file yet are
+    /// added to those of the views.
+    pub fn enter_node(&self, file: &mut Document, ending: &str, bytes: &mut Vec<u8>) -> Value {
+        let name = self.mesh.notes().into_iter().next().unwrap_or_default() + ending;
+        let Some(mesh) = self.enter(file, &name, bytes) else { return json!({ "name": name }) };
+        let mut node = json!({ "name": name, "mesh": mesh });
+        self.skin.iter().for_each(|_| node["skin"] = json!(0));
+        node
+    }
+
+    /// Writes the bytes of the views of the mesh, in the order in which they are entered.
+    ///
+    /// # Errors
+    /// Those of `out`.
+    pub fn write_bytes(&self, out: &mut (dyn Write + Send)) -> io::Result<()> {
         for slot in self.filled() {
             self.write_vertices(slot, out)?;
             if self.has_relief(slot) {
@@ -138,6 +153,12 @@ impl<'a> Still<'a> {
             self.write_faces(slot, out)?;
         }
         Ok(())
+    }
+
+    /// The number of these bytes, about.
+    pub fn bytes(&self) -> u64 {
+        let counts = self.mesh.counts();
+        counts.vertices * self.stride() + counts.faces * 12
     }
 
     /// Whether a picture of relief lies on a slot.

@@ -33,6 +33,11 @@ impl Scene<'_> {
         Mesh { vertices, faces }
     }
 
+    /// The number of triangles of an organ.
+    pub fn faces_of(&self, organ: OrganId) -> u64 {
+        self.form(organ).faces().len() as u64
+    }
+
     /// How many of its blocks are those of organs, which are the last and do not depend on how wood is drawn.
     pub fn organ_blocks(&self) -> usize {
         self.plant().organs.len().div_ceil(BLOCK)

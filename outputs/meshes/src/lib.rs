@@ -11,6 +11,7 @@ mod attributes;
 mod blocks;
 mod boxes;
 mod budget;
+mod cards;
 mod chunk;
 mod collection;
 mod colour;
@@ -48,6 +49,7 @@ mod tests_range;
 #[cfg(test)]
 mod tests_stated;
 mod texture;
+mod thinned;
 mod tube;
 mod turned;
 mod welded;
@@ -56,6 +58,7 @@ mod wood;
 pub use blocks::TakeAlone;
 pub use boxes::Boxing;
 pub use budget::{TooFew, fitting, nearest};
+pub use cards::{Card, Cards};
 pub use chunk::{Chunk, Counts, Face, Sink, Tag, Vertex};
 pub use collection::Collection;
 pub use colour::linear;
@@ -83,6 +86,7 @@ pub use solid::{Solid, Undrawn};
 pub use stem::Stems;
 pub use stl::write_stl;
 pub use texture::{MOST_PICTURE_BYTES, MOST_PIXELS, Picture, PictureFault, Texture, Textures};
+pub use thinned::{MOST_LARGER, Thinned, organ_number};
 pub use tube::Frustum;
 
 use phytomer_looks::place_of_own;
@@ -117,6 +121,9 @@ pub enum Keeping {
     Section,
     /// Its circumference, which is π times the mean width, so that thin wood is seen as wide as it is.
     Width,
+    /// The circumference of the polygon of so many sides that keeps its area, so that wood is seen as wide as tubes of
+    /// single internodes of as many sides are.
+    Tube(u8),
 }
 
 impl Tolerance {
@@ -198,6 +205,8 @@ pub struct MeshOptions {
     pub slotting: Slotting,
     /// The forms from near that plants with these options have met.
     pub nears: SharedNears,
+    /// Which organs are drawn, each for others too; `None`: all.
+    pub thinned: Option<Thinned>,
 }
 
 impl MeshOptions {
@@ -242,6 +251,7 @@ impl Default for MeshOptions {
             detail: 0,
             slotting: Slotting::Kind,
             nears: SharedNears::default(),
+            thinned: None,
         }
     }
 }

@@ -32,6 +32,7 @@ impl MeshWriter for Ply {
         let counts = scene.counts();
         let mut comments = vec![about.in_words(), place_comment(about.place)];
         comments.extend(scene.options().joints.in_words().map(str::to_owned));
+        comments.extend(scene.options().thinned.map(|thinned| thinned.in_words()));
         if let Some(columns) = scene.columns() {
             return write_with(columns, scene, comments, out);
         }

@@ -232,13 +232,13 @@ impl<'a> Scene<'a> {
             }
             OrganForm::Outline(..) => {
                 let Frame { base, heading, up } = self.organ_base(organ);
-                let share = self.plant.expanded(organ, self.age);
+                let share = self.share(organ);
                 let size = [share, share, 0.0];
                 DrawnOrgan { base, heading, up, size, fullness: 1.0, colours, own: OwnForm::Outline }
             }
             OrganForm::Surface(_, scale) => {
                 let Frame { base, heading, up } = self.organ_base(organ);
-                let size = scale.map(|x| x * self.plant.expanded(organ, self.age));
+                let size = scale.map(|x| x * self.share(organ));
                 let place = self.plant.stated_organs.surface(organ).map_or(0, |(place, _)| place);
                 DrawnOrgan { base, heading, up, size, fullness: 1.0, colours, own: OwnForm::Surface(place) }
             }
@@ -271,9 +271,11 @@ impl<'a> Scene<'a> {
 
     pub(super) fn organs_of(&self, range: Range<usize>) -> impl Iterator<Item = OrganId> {
         let (plant, age, kinds, detail) = (self.plant, self.age, self.options.kinds, self.stems.detail.as_ref());
+        let thinned = self.options.thinned;
         let drawn = move |&organ: &OrganId| {
             plant.organ_stands(organ, age)
                 && kinds[plant.organs.kind[organ.index()] as usize]
+                && thinned.is_none_or(|thinned| thinned.keeps(plant, organ))
                 && detail.is_none_or(|detail| detail.leaf(plant, organ).is_some())
         };
         range.map(|organ| OrganId(organ as u32)).filter(drawn)
@@ -320,11 +322,11 @@ impl<'a> Scene<'a> {
                 self.options.write(shape, &self.placement(organ, shape), &tags, out)
             }
             Shown::Whole(OrganForm::Outline(corners, faces)) => {
-                let (frame, share) = (self.organ_base(organ), self.plant.expanded(organ, self.age));
+                let (frame, share) = (self.organ_base(organ), self.share(organ));
                 outline::write((corners, faces), &frame, share, &tags[0], out);
             }
             Shown::Whole(OrganForm::Surface(surface, scale)) => {
-                let (frame, share) = (self.organ_base(organ), self.plant.expanded(organ, self.age));
+                let (frame, share) = (self.organ_base(organ), self.share(organ));
                 outline::write_surface(surface, scale.map(|x| share * x), &frame, &tags[0], out);
             }
             Shown::Point => outline::write_point(self.size_of_point(organ), &self.organ_base(organ), &tags[0], out),
@@ -334,11 +336,18 @@ impl<'a> Scene<'a> {
         }
     }
 
+    /// The share of its full size that an organ has at its age; more, where it stands for others too.
+    #[inline]
+    fn share(&self, organ: OrganId) -> f32 {
+        let share = self.plant.expanded(organ, self.age);
+        self.options.thinned.map_or(share, |thinned| share * thinned.factor(self.plant, organ))
+    }
+
     /// The placement of an organ, with its size at its age, and with the fullness that gives it the area in the tables.
     fn placement(&self, organ: OrganId, shape: &FormMesh) -> Placement {
         let frame = self.organ_base(organ);
         let organs = &self.plant.organs;
-        let share = self.plant.expanded(organ, self.age);
+        let share = self.share(organ);
         let full = [organs.length[organ.index()], organs.width[organ.index()]];
         // An organ expands in proportion, so its fullness is that of its full size.
         let fullness = shape.fullness(full, organs.area[organ.index()]);
@@ -349,9 +358,9 @@ impl<'a> Scene<'a> {
     /// The length and the area of the triangle that stands for an organ; one without an area fills half of its box.
     fn size_of_point(&self, organ: OrganId) -> [f32; 2] {
         let (organs, place) = (&self.plant.organs, organ.index());
-        let share = self.plant.expanded(organ, self.age);
+        let share = self.share(organ);
         let [length, width] = [organs.length[place], organs.width[place]].map(|size| size * share);
-        let area: f32 = self.plant.organ_area(organ, self.age);
+        let area = organs.area[place] * share * share;
         [length, if area > 0.0 { area } else { 0.5 * length * width }]
     }
 

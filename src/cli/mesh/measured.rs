@@ -41,6 +41,7 @@ fn refuse(mesh: &Mesh, measured: &Measured) -> Result<(), Misuse> {
         ("--fall", mesh.fall.fall),
         ("-D", !mesh.constants.is_empty()),
         ("--range", mesh.range.is_some()),
+        ("--lods", mesh.lods.asked().is_some()),
         ("--colour-by", mesh.dressing.colour_by.is_some()),
         ("--wind-data", mesh.dressing.has_wind_data()),
         (part.unwrap_or_default(), part.is_some()),

@@ -59,16 +59,21 @@ pub struct Polygon {
 }
 
 impl Polygon {
-    /// The polygon of so many sides that keeps the area of a circle or its circumference.
+    /// The polygon of so many sides that keeps the area of a circle, its circumference, or that of another polygon.
     pub fn of(sides: u16, keeps: Keeping) -> Self {
         let count = f64::from(sides);
         let corner = |k: u16| {
             let (sin, cos) = sincos(TAU * f64::from(k % sides) / count);
             [cos as f32, sin as f32, (f64::from(k) / count) as f32]
         };
+        let of_area = |count: f64| (TAU / count / sin(TAU / count)).sqrt();
         let reach = match keeps {
-            Keeping::Section => (TAU / count / sin(TAU / count)).sqrt(),
+            Keeping::Section => of_area(count),
             Keeping::Width => PI / count / sin(PI / count),
+            Keeping::Tube(sides) => {
+                let of = f64::from(sides.max(3));
+                of_area(of) * of * sin(PI / of) / (count * sin(PI / count))
+            }
         };
         Self { corners: (0..=sides).map(corner).collect(), reach: reach as f32 }
     }

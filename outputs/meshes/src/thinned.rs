@@ -1,0 +1,89 @@
+//! Fewer organs that stand for all: a share of them, chosen by their lineage keys, each so much larger that their area
+//! is kept.
+//!
+//! An organ is kept where the number of its lineage key is below the share, so that a smaller share keeps some of those
+//! that a larger one keeps, at every age. With the area A of all organs of a class and the area K of those that are
+//! kept, each of these is drawn with k = A / K times its own area, in length, width and depth √k times its size: the
+//! sum of the areas stays A. k is at most [`MOST_LARGER`], beyond which leaves look like balloons; then area is lost.
+//! Organs without an area count alike. Absent: which share a level of detail has (`phytomer_pictures::levels`).
+
+use phytomer_sim::clock::Tick;
+use phytomer_sim::plant::{Class, OrganId, Plant};
+
+/// The most times its own area that an organ is drawn with: √2 times its length.
+pub const MOST_LARGER: f64 = 2.0;
+
+/// The classes of organs, each of which keeps its area.
+pub const CLASSES: [Class; 3] = [Class::Leaf, Class::Flower, Class::Fruit];
+
+/// A share of the organs of a plant, and how much larger they are.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Thinned {
+    /// The share of the organs that is kept, about: an organ is kept where the number of its key is below it.
+    pub share: f64,
+    /// How many times its own area an organ has, for each of [`CLASSES`].
+    pub larger: [f64; CLASSES.len()],
+}
+
+impl Thinned {
+    /// The organs of `plant` at `age` of which about `share` are kept; `None` where all are.
+    pub fn of(plant: &Plant, age: Tick, share: f64) -> Option<Self> {
+        if share >= 1.0 {
+            return None;
+        }
+        let mut sums = [[0.0_f64; 2]; CLASSES.len()];
+        let mut counts = [[0_u64; 2]; CLASSES.len()];
+        for organ in (0..plant.organs.len()).map(|organ| OrganId(organ as u32)) {
+            let Some(class) = class_of(plant, organ).filter(|_| plant.organ_stands(organ, age)) else { continue };
+            let area: f64 = plant.organ_area(organ, age);
+            let kept = usize::from(organ_number(plant, organ) < share);
+            // The sum of those that are kept is a part of the sum of all.
+            for k in 0..=kept {
+                sums[class][k] += area;
+                counts[class][k] += 1;
+            }
+        }
+        let larger = std::array::from_fn(|class| match (sums[class], counts[class]) {
+            ([all, kept], _) if kept > 0.0 => all / kept,
+            (_, [all, kept]) if kept > 0 => all as f64 / kept as f64,
+            _ => 1.0,
+        });
+        Some(Self { share, larger: larger.map(|k: f64| k.clamp(1.0, MOST_LARGER)) })
+    }
+
+    /// What a file says of them.
+    pub fn in_words(&self) -> String {
+        let [leaves, flowers, fruits] = self.larger;
+        format!(
+            "thinned {:.4}: of the organs that share stands for all, leaves with {leaves:.4} times their area_m2, flowers \
+             {flowers:.4}, fruits {fruits:.4}",
+            self.share
+        )
+    }
+
+    /// Whether an organ is kept.
+    #[inline]
+    pub fn keeps(&self, plant: &Plant, organ: OrganId) -> bool {
+        class_of(plant, organ).is_none() || organ_number(plant, organ) < self.share
+    }
+
+    /// The factor of its sizes.
+    #[inline]
+    pub fn factor(&self, plant: &Plant, organ: OrganId) -> f32 {
+        class_of(plant, organ).map_or(1.0, |class| self.larger[class].sqrt() as f32)
+    }
+}
+
+/// The place of the class of an organ among [`CLASSES`].
+#[inline]
+fn class_of(plant: &Plant, organ: OrganId) -> Option<usize> {
+    let class = plant.organs.kind[organ.index()].class();
+    CLASSES.iter().position(|of| *of == class)
+}
+
+/// The number of an organ, from 0 to 1, by which it is kept or not: of the lower bits of its lineage key, since the
+/// upper ones are the phase that shaders read, and the organs that are kept should sway in all phases.
+#[inline]
+pub fn organ_number(plant: &Plant, organ: OrganId) -> f64 {
+    f64::from(plant.organ_key(organ).0 as u32) / 4_294_967_296.0
+}

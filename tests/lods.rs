@@ -1,0 +1,143 @@
+//! `mesh --lods` on the command line: the files and what they say of their levels, and what is told of what cannot be.
+//!
+//! Absent: whether outlines hold (`levels`), and whether a GLB file is valid (`glb`).
+
+#[allow(dead_code, reason = "the place is told elsewhere")]
+mod ply;
+mod program;
+
+use ply::{count, mesh};
+use program::run;
+use serde_json::Value;
+use std::fs;
+use std::path::Path;
+use tempfile::tempdir;
+
+const PLANT: [&str; 5] = ["mesh", "coffee", "--age", "18", "--lods"];
+
+fn words<'a>(lods: &'a str, more: &[&'a str], out: &'a str) -> Vec<&'a str> {
+    [&PLANT[..], &[lods], more, &["--out", out]].concat()
+}
+
+/// The JSON of a GLB file.
+fn json(path: &Path) -> Value {
+    let bytes = fs::read(path).expect("a file");
+    let length = u32::from_le_bytes(bytes[12..16].try_into().expect("four bytes")) as usize;
+    serde_json::from_slice(&bytes[20..20 + length]).expect("JSON")
+}
+
+/// The triangles of the mesh of a node.
+fn triangles(file: &Value, node: usize) -> u64 {
+    let mesh = file["nodes"][node]["mesh"].as_u64().expect("a mesh") as usize;
+    let primitives = file["meshes"][mesh]["primitives"].as_array().expect("primitives");
+    let of = |primitive: &Value| {
+        let indices = primitive["indices"].as_u64().expect("indices") as usize;
+        file["accessors"][indices]["count"].as_u64().expect("a count") / 3
+    };
+    primitives.iter().map(of).sum()
+}
+
+#[test]
+fn one_glb_has_all_levels_and_other_formats_have_a_file_for_each() {
+    let folder = tempdir().expect("a temporary folder");
+    let told = run(folder.path(), &words("3", &[], "coffee.glb")).ending(0).stdout;
+    assert!(told.contains("3 levels") && told.contains("level 2: "), "{told}");
+    let file = json(&folder.path().join("coffee.glb"));
+    assert_eq!(file["extensionsUsed"], serde_json::json!(["MSFT_lod"]));
+    assert!(file.get("extensionsRequired").is_none(), "the first level is shown without it");
+    assert_eq!(file["scenes"][0]["nodes"], serde_json::json!([0]));
+    assert_eq!(file["nodes"][0]["extensions"]["MSFT_lod"]["ids"], serde_json::json!([1, 2]));
+    let screens = file["nodes"][0]["extras"]["MSFT_screencoverage"].as_array().expect("a number for each level");
+    assert_eq!(screens.len(), 3);
+    let levels = file["asset"]["extras"]["levels"].as_array().expect("levels");
+    let own: Vec<u64> = (0..3).map(|node| triangles(&file, node)).collect();
+    let said: Vec<u64> = levels.iter().map(|level| level["triangles"].as_u64().expect("a count")).collect();
+    assert_eq!(own, said);
+    assert!(own[1] <= own[0] / 4 && own[2] < own[1], "{own:?}");
+    for level in levels {
+        assert!(level["outline_area_apart"].as_f64().expect("a share") <= 0.03, "{level}");
+        assert!((1.0..=2.0).contains(&level["leaf_area_times"].as_f64().expect("a factor")), "{level}");
+    }
+    let counts = format!("{},{}", own[1], own[2]);
+    run(folder.path(), &words(&counts, &[], "coffee.ply")).ending(0);
+    run(folder.path(), &["mesh", "coffee", "--age", "18", "--out", "alone.ply"]).ending(0);
+    let files = [0, 1, 2].map(|number| mesh(&folder.path().join(format!("coffee_lod{number}.ply"))));
+    assert_eq!(files[0], mesh(&folder.path().join("alone.ply")), "the first level is the mesh without levels");
+    assert!(!folder.path().join("coffee.ply").exists());
+    for ((header, bytes), most) in files.iter().zip(&own) {
+        assert!(count(header, "face") as u64 <= *most);
+        assert_eq!(bytes.len(), 49 * count(header, "vertex") + 13 * count(header, "face"));
+    }
+    run(folder.path(), &words("2", &["--tolerance", "1mm"], "coffee.stl")).ending(0);
+    assert!(folder.path().join("coffee_lod1.stl").exists());
+}
+
+#[test]
+fn what_cannot_be_is_told_and_leaves_nothing() {
+    let folder = tempdir().expect("a temporary folder");
+    let expected = "a number of levels from 1 to 8 is expected";
+    for (lods, more, out, told) in [
+        ("0", &[][..], "no.glb", expected),
+        ("9", &[], "no.glb", expected),
+        ("-1", &[], "no.glb", expected),
+        ("many", &[], "no.glb", expected),
+        ("5k,0", &[], "no.glb", expected),
+        ("5k,6k", &[], "no.glb", "each level has fewer than the one before"),
+        ("9,8", &[], "no.ply", "--lods: level 1 of plant 0 at age 18 may have 9 triangles, and has at least "),
+        ("2", &["--leaves", "instances"], "no.glb", "--lods: organs that stand for others"),
+        ("2", &[], "no.usdc", "--lods: this is for GLB, PLY and STL"),
+        ("2", &["--cards"], "no.ply", "--cards: they have textures"),
+        ("1", &["--cards"], "no.glb", "--cards: they are the last of at least two levels"),
+        ("900,7", &["--cards"], "no.glb", "may have 7 triangles, and has at least 8"),
+        ("2", &[], "-", "--lods: each level is a file, and stdout is one"),
+    ] {
+        let said = run(folder.path(), &words(lods, more, out)).ending(2);
+        assert!(said.stderr.contains(told), "{lods} {more:?}: {}", said.stderr);
+    }
+    for more in [&["--plot"][..], &["--rig", "9", "--wind", "5"], &["--range", "9"]] {
+        let said = run(folder.path(), &words("2", more, "no.glb")).ending(2);
+        assert!(said.stderr.contains("cannot be used with"), "{more:?}: {}", said.stderr);
+    }
+    let life = run(folder.path(), &["mesh", "coffee", "--ages", "1..9", "--lods", "2", "--out", "no.glb"]).ending(2);
+    assert!(life.stderr.contains("cannot be used with"), "{}", life.stderr);
+    assert_eq!(fs::read_dir(folder.path()).expect("a folder").count(), 0, "no file is left");
+}
+
+/// Cards are four quads in planes 45 degrees apart, with an atlas in the file whose upper edge is the top of the plant.
+#[test]
+fn cards_are_the_last_level_with_their_atlas() {
+    let folder = tempdir().expect("a temporary folder");
+    let told = run(folder.path(), &["mesh", "wp/quaking_aspen", "--lods", "3", "--cards", "--out", "aspen.glb"]);
+    let told = told.ending(0).stdout;
+    assert!(told.contains("level 2: 8 triangles, cards, outline within "), "{told}");
+    let path = folder.path().join("aspen.glb");
+    let (file, bytes) = (json(&path), fs::read(&path).expect("a file"));
+    let ids = file["nodes"][0]["extensions"]["MSFT_lod"]["ids"].as_array().expect("levels").clone();
+    assert_eq!((ids.len(), triangles(&file, 2)), (2, 8));
+    let last = file["asset"]["extras"]["levels"].as_array().and_then(|levels| levels.last()).expect("levels");
+    assert!(last["outline_area_apart"].as_f64().expect("a share") <= 0.03, "{last}");
+    let materials = file["materials"].as_array().expect("materials");
+    let material = materials.iter().find(|material| material["name"] == "cards").expect("the material of cards");
+    assert_eq!((&material["alphaMode"], &material["doubleSided"]), (&"MASK".into(), &true.into()));
+    let body = 28 + u32::from_le_bytes(bytes[12..16].try_into().expect("four bytes")) as usize;
+    let picture = |image: usize| {
+        let view = file["images"][image]["bufferView"].as_u64().expect("a view") as usize;
+        let [from, length] =
+            ["byteOffset", "byteLength"].map(|key| file["bufferViews"][view][key].as_u64().expect("a number") as usize);
+        let mut reader =
+            png::Decoder::new(std::io::Cursor::new(&bytes[body + from..][..length])).read_info().expect("PNG");
+        let mut pixels = vec![0; reader.output_buffer_size().expect("a size")];
+        let info = reader.next_frame(&mut pixels).expect("a picture");
+        (info.width as usize, info.height as usize, info.color_type, pixels)
+    };
+    let (width, height, kind, colours) = picture(0);
+    assert_eq!(kind, png::ColorType::Rgba);
+    assert_eq!(picture(1).2, png::ColorType::Rgb);
+    // The trunk is brown or grey below, the crown is green and wider above.
+    let shown = |y: usize| (0..width / 2).filter(|x| colours[4 * (y * width + x) + 3] >= 128).count();
+    let (above, below): (usize, usize) = ((0..height / 4).map(shown).sum(), (height / 4..height / 2).map(shown).sum());
+    assert!(above > 2 * below && below > 0, "{above} {below}");
+    // No texel is dark where nothing is shown: colours go on there.
+    let dark = colours.chunks_exact(4).filter(|texel| texel[..3].iter().all(|channel| *channel < 20)).count();
+    assert!(dark * 100 < width * height, "{dark} of {}", width * height);
+}
