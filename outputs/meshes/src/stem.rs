@@ -144,7 +144,7 @@ impl<'a> Stems<'a> {
         forms.push(Drawn::Tube(Tube::new(options.sides), false));
         let sections: Vec<Drawn> = paints.sections().iter().map(|section| Drawn::Prism(Prism::new(section))).collect();
         let follows = |form: &Drawn| match form {
-            Drawn::Near(_, choice) => choice.asks_for_cuts(),
+            Drawn::Near(_, choice) => choice.headed,
             form => matches!(form, Drawn::Lamina(_)),
         };
         let laminae = forms.iter().any(follows);
@@ -154,7 +154,7 @@ impl<'a> Stems<'a> {
         let bark = Bark::of(plant, age, stated);
         let flare = options.own.flare().copied();
         let coloured = options.colours.is_some().then(|| options.clone());
-        let based = |form: &Drawn| matches!(form, Drawn::Near(_, choice) if choice.asks_for_leaves());
+        let based = |form: &Drawn| matches!(form, Drawn::Near(_, choice) if choice.bases.is_some());
         let leaves = if forms.iter().any(based) { leaves_of_nodes(plant) } else { Vec::new() };
         let thin = options.tolerance.map_or(0.0, |tolerance| FINE * tolerance.distance);
         let kinds = options.kinds;

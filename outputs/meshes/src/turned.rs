@@ -30,14 +30,17 @@ const KNUCKLES: f32 = 0.09;
 #[derive(Debug, Clone, Copy)]
 pub struct Choice {
     ranks: Option<[u32; 2]>,
-    bases: Option<LeafBases>,
-    headed: bool,
+    /// The bases of leaves that stay.
+    pub bases: Option<LeafBases>,
+    /// Whether it must be known where a stem was cut.
+    pub headed: bool,
+    profiled: bool,
 }
 
 /// How an internode is drawn from near.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Variant {
-    /// As afar: of another rank.
+    /// As afar: of another rank, or without a profile.
     Plain,
     /// By its profile.
     Turned,
@@ -67,17 +70,12 @@ pub struct Turned {
 impl Choice {
     /// The choice of a setting.
     pub fn of(near: &NearStem) -> Self {
-        Self { ranks: near.ranks, bases: near.leaf_bases, headed: near.head.is_some() }
-    }
-
-    /// Whether the bases of leaves stay.
-    pub fn asks_for_leaves(&self) -> bool {
-        self.bases.is_some()
-    }
-
-    /// Whether it must be known where a stem was cut.
-    pub fn asks_for_cuts(&self) -> bool {
-        self.headed
+        Self {
+            ranks: near.ranks,
+            bases: near.leaf_bases,
+            headed: near.head.is_some(),
+            profiled: !near.profile.is_empty(),
+        }
     }
 
     /// How an internode of a rank and an age is drawn, whose leaf may have fallen, and which may end a stem that was
@@ -90,8 +88,10 @@ impl Choice {
             Variant::Headed
         } else if fallen && self.bases.is_some_and(stays) {
             Variant::Based
-        } else {
+        } else if self.profiled {
             Variant::Turned
+        } else {
+            Variant::Plain
         }
     }
 }
