@@ -85,7 +85,7 @@ fn what_cannot_be_is_told_and_leaves_nothing() {
         ("5k,6k", &[], "no.glb", "each level has fewer than the one before"),
         ("9,8", &[], "no.ply", "--lods: level 1 of plant 0 at age 18 may have 9 triangles, and has at least "),
         ("2", &["--leaves", "instances"], "no.glb", "--lods: organs that stand for others"),
-        ("2", &[], "no.usdc", "--lods: this is for GLB, PLY and STL"),
+        ("2", &[], "no.usdc", "--lods: this is for GLB, PLY, OBJ and STL"),
         ("2", &["--cards"], "no.ply", "--cards: they have textures"),
         ("1", &["--cards"], "no.glb", "--cards: they are the last of at least two levels"),
         ("900,7", &["--cards"], "no.glb", "may have 7 triangles, and has at least 8"),

@@ -1,7 +1,8 @@
 //! `merge`: the folders of all shards of a run, grown on several machines, become the folder of the run.
 //!
-//! Every file is compared while it is copied, or before, where a run is replaced and where files are linked; the folders
-//! themselves stay as they are. What is wrong with them is told all at once. Absent: the merging (`phytomer_outputs::merge`).
+//! Every file is compared while it is copied, or before, where a run is replaced and where files are linked; the
+//! folders themselves stay as they are. What is wrong with them is told all at once. Absent: the merging
+//! (`phytomer_outputs::merge`).
 
 use super::{Misuse, Verdict, amounts, bar, interrupt, terminal};
 use anyhow::Result;

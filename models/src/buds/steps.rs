@@ -104,7 +104,8 @@ impl Axis<'_> {
         self.stand_at(at);
         for rank in 1..=nodes {
             self.read_node();
-            self.node(rank, nodes, (short, false), Lie::Free)?;
+            let drawn = self.draw_internode(rank, [short, false]);
+            self.node(drawn, nodes, Lie::Free)?;
         }
         Ok(())
     }

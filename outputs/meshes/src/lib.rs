@@ -27,6 +27,7 @@ mod measure;
 mod model;
 mod near;
 mod obj;
+mod organ_base;
 mod outline;
 mod palette;
 mod patched;

@@ -12,6 +12,7 @@ use super::detail::{Detail, Primitive};
 use super::dress::{Crown, is_leaf};
 use super::forms::{FormMesh, Placement};
 use super::near::{NearForm, Nears};
+use super::organ_base::organ_base;
 use super::outline::{self, OrganForm, Outlines, OwnForm, Shown};
 use super::stem::Stems;
 use super::wood::Wood;
@@ -19,14 +20,11 @@ use super::{About, Joints, MeshOptions, Tolerance, colour};
 use phytomer_looks::Paints;
 use phytomer_sim::clock::Tick;
 use phytomer_sim::plant::{NodeId, OrganId, Plant};
-use phytomer_sim::pose::{Frame, organ_frame, stated_organ_frame};
+use phytomer_sim::pose::Frame;
 use std::convert::Infallible;
 use std::io;
 use std::ops::Range;
 use std::sync::Arc;
-
-/// An organ whose insertion angle has a smaller sine stands on the tip of the stem, not on its side.
-const TERMINAL: f32 = 1e-3;
 
 /// A plant at an age, ready to be drawn.
 #[derive(Debug)]
@@ -231,13 +229,13 @@ impl<'a> Scene<'a> {
                 DrawnOrgan { base, heading, up, size, fullness, colours, own }
             }
             OrganForm::Outline(..) => {
-                let Frame { base, heading, up } = self.organ_base(organ);
+                let Frame { base, heading, up } = organ_base(self.plant, organ, self.age);
                 let share = self.share(organ);
                 let size = [share, share, 0.0];
                 DrawnOrgan { base, heading, up, size, fullness: 1.0, colours, own: OwnForm::Outline }
             }
             OrganForm::Surface(_, scale) => {
-                let Frame { base, heading, up } = self.organ_base(organ);
+                let Frame { base, heading, up } = organ_base(self.plant, organ, self.age);
                 let size = scale.map(|x| x * self.share(organ));
                 let place = self.plant.stated_organs.surface(organ).map_or(0, |(place, _)| place);
                 DrawnOrgan { base, heading, up, size, fullness: 1.0, colours, own: OwnForm::Surface(place) }
@@ -322,14 +320,16 @@ impl<'a> Scene<'a> {
                 self.options.write(shape, &self.placement(organ, shape), &tags, out)
             }
             Shown::Whole(OrganForm::Outline(corners, faces)) => {
-                let (frame, share) = (self.organ_base(organ), self.share(organ));
+                let (frame, share) = (organ_base(self.plant, organ, self.age), self.share(organ));
                 outline::write((corners, faces), &frame, share, &tags[0], out);
             }
             Shown::Whole(OrganForm::Surface(surface, scale)) => {
-                let (frame, share) = (self.organ_base(organ), self.share(organ));
+                let (frame, share) = (organ_base(self.plant, organ, self.age), self.share(organ));
                 outline::write_surface(surface, scale.map(|x| share * x), &frame, &tags[0], out);
             }
-            Shown::Point => outline::write_point(self.size_of_point(organ), &self.organ_base(organ), &tags[0], out),
+            Shown::Point => {
+                outline::write_point(self.size_of_point(organ), &organ_base(self.plant, organ, self.age), &tags[0], out)
+            }
         }
         if let Some(crown) = self.crown.as_ref().filter(|_| is_leaf(self.plant, organ)) {
             crown.dress(out);
@@ -345,7 +345,7 @@ impl<'a> Scene<'a> {
 
     /// The placement of an organ, with its size at its age, and with the fullness that gives it the area in the tables.
     fn placement(&self, organ: OrganId, shape: &FormMesh) -> Placement {
-        let frame = self.organ_base(organ);
+        let frame = organ_base(self.plant, organ, self.age);
         let organs = &self.plant.organs;
         let share = self.share(organ);
         let full = [organs.length[organ.index()], organs.width[organ.index()]];
@@ -364,19 +364,6 @@ impl<'a> Scene<'a> {
         [length, if area > 0.0 { area } else { 0.5 * length * width }]
     }
 
-    /// The frame of an organ at its drawn base: where the organ states it, else on the surface of its stem.
-    #[inline]
-    fn organ_base(&self, organ: OrganId) -> Frame {
-        if let Some(stated) = stated_organ_frame(self.plant, organ) {
-            return stated;
-        }
-        let frame = organ_frame(self.plant, organ, self.age);
-        let node = self.plant.organs.node[organ.index()];
-        let out = outward(self.plant.frames.heading[node.index()], frame.heading);
-        let radius = 0.5 * self.plant.nodes.diameter_tip[node.index()];
-        Frame { base: [0, 1, 2].map(|k| frame.base[k] + radius * out[k]), ..frame }
-    }
-
     /// The tags of an organ and of its stalk.
     fn organ_tags(&self, organ: OrganId) -> [Tag; 2] {
         let organs = &self.plant.organs;
@@ -389,14 +376,6 @@ impl<'a> Scene<'a> {
             kind: organs.kind[place] as u8,
         })
     }
-}
-
-/// The part of an organ's heading across its stem, as a unit vector; zero for an organ on the tip.
-fn outward(stem: [f32; 3], organ: [f32; 3]) -> [f32; 3] {
-    let along = stem[0] * organ[0] + stem[1] * organ[1] + stem[2] * organ[2];
-    let across = [0, 1, 2].map(|k| organ[k] - along * stem[k]);
-    let length = (across[0] * across[0] + across[1] * across[1] + across[2] * across[2]).sqrt();
-    if length > TERMINAL { across.map(|x| x / length) } else { [0.0; 3] }
 }
 
 #[inline]

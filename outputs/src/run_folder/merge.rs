@@ -1,13 +1,14 @@
 //! Merges folders that hold shares of one run into one folder with the bytes of a run that was grown at once.
 //!
 //! The folders must be of one run (scenario, seed, program, inputs: the fingerprint), be sound byte for byte, and hold
-//! each part once. All that the documents and the lengths of the files tell to be wrong is told together, before anything
-//! is written; then every byte is read as well, so that nothing that is wrong stays untold. Else each part is copied
-//! beside its final name, hashed on the way, renamed and entered in the journal, so that an interrupted merge can be
-//! resumed as a run is. So a merge of sound folders reads each byte once. A part whose hash is another one is told with
-//! all others of its kind, and is not entered. Before a run is replaced, and before files are linked, every byte is read:
-//! what is lost or shared then must not be lost for a damaged file. Only the timings in `run.json` are not those of a run that was grown at once: they are the sums of those of
-//! the folders. Absent: growing what is missing.
+//! each part once. All that the documents and the lengths of the files tell to be wrong is told together, before
+//! anything is written; then every byte is read as well, so that nothing that is wrong stays untold. Else each part is
+//! copied beside its final name, hashed on the way, renamed and entered in the journal, so that an interrupted merge
+//! can be resumed as a run is. So a merge of sound folders reads each byte once. A part whose hash is another one is
+//! told with all others of its kind, and is not entered. Before a run is replaced, and before files are linked, every
+//! byte is read: what is lost or shared then must not be lost for a damaged file. Only the timings in `run.json` are
+//! not those of a run that was grown at once: they are the sums of those of the folders. Absent: growing what is
+//! missing.
 
 use super::check::{self, Checking, Checkup, Depth, State};
 use super::difference::Differences;

@@ -1,6 +1,7 @@
 //! Why folders do not make up one run: what is wrong, in which folder, and what to do.
 //!
-//! A merge looks for faults before it writes anything, and tells all of a kind together. Absent: looking for them (`merge`).
+//! A merge looks for faults before it writes anything, and tells all of a kind together. Absent: looking for them
+//! (`merge`).
 
 use super::difference::{Difference, Differences};
 use super::holder::Holder;

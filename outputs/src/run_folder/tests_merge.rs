@@ -180,8 +180,8 @@ fn a_damaged_file_is_found_on_the_way_and_what_is_sound_is_merged() {
     damage();
     let told = merge_into(&merged, &parts, Mode::New).unwrap_err();
     let words = told.to_string();
-    let Error::Shares(MergeFaults(faults)) = told else { panic!("{words}") };
-    assert_eq!(faults.len(), 2, "{words}");
+    let Error::Shares(MergeFaults(damaged)) = told else { panic!("{words}") };
+    assert_eq!(damaged.len(), 2, "{words}");
     assert!(words.contains("part-00001.parquet: its SHA-256") && words.contains("part-00002.parquet: its SHA-256"));
     let left = check(&merged, Depth::Bytes, &Checking::default()).unwrap();
     assert_eq!((left.state, left.to_grow), (State::Unfinished, vec![1, 2]));

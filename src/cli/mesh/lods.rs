@@ -72,8 +72,8 @@ impl Lods {
                 "--lods: organs that stand for others are larger than their model; leave out --leaves instances"
                     .to_owned(),
             )),
-            Format::Usd(..) => Err(Misuse("--lods: this is for GLB, PLY and STL".to_owned())),
-            Format::Ply | Format::Stl if is_stdout(out) => Err(Misuse(
+            Format::Usd(..) => Err(Misuse("--lods: this is for GLB, PLY, OBJ and STL".to_owned())),
+            Format::Ply | Format::Stl | Format::Obj if is_stdout(out) => Err(Misuse(
                 "--lods: each level is a file, and stdout is one: name a file, to whose name _lod0 and so on are added"
                     .to_owned(),
             )),
@@ -219,7 +219,7 @@ fn write_glb(mesh: &Mesh, (found, scenes): (&[Level], &[Scene]), cards: Option<&
 fn write_file(mesh: &Mesh, format: Format, (number, scene): (usize, &Scene), seed: u64) -> Result<(PathBuf, u64)> {
     let path = named(&mesh.out, number);
     let mut file = Destination::create(&path)?;
-    format.write_plant(scene, seed, &mut file).with_context(|| format!("cannot write {}", path.display()))?;
+    format.write_plant(scene, seed, &mut file, &path).with_context(|| format!("cannot write {}", path.display()))?;
     Ok((path, file.finish()?))
 }
 

@@ -18,8 +18,8 @@ use std::rc::Rc;
 /// The most steps of summation: a second or so.
 const MOST_WORK: u64 = 40_000_000;
 
-/// What a clock step of a cohort costs beside the work on its cells, in steps of summation: its lists, and the chances of
-/// all its laws.
+/// What a clock step of a cohort costs beside the work on its cells, in steps of summation: its lists, and the chances
+/// of all its laws.
 const WORK_OF_STEP: u64 = 6;
 
 /// The most growth units whose sums are kept for each order.

@@ -32,7 +32,7 @@ fn each(mut then: impl FnMut(FormName, u8, [f32; 2], &FormMesh)) {
     for form in FormName::ALL {
         for detail in 1..=MOST_DETAIL {
             for size in SIZES {
-                then(form, detail, size, of_library(form.form(), detail, size, 0.0));
+                then(form, detail, size, of_library(form.form(), detail, size, 0.0).0);
             }
         }
     }
@@ -63,7 +63,7 @@ fn an_organ_has_the_area_that_is_stated_at_every_detail() {
         }
         for share in [0.3, 0.5, 0.7, 1.0] {
             let stated = share * size[0] * size[1];
-            let shape = of_library(form.form(), detail, size, stated);
+            let shape = of_library(form.form(), detail, size, stated).0;
             let found = area(shape, size, shape.fullness(size, stated)) / f64::from(stated);
             assert!((found - 1.0).abs() < 8e-3, "{form:?} {detail} {size:?} {share}: {found}");
         }
@@ -73,7 +73,7 @@ fn an_organ_has_the_area_that_is_stated_at_every_detail() {
 #[test]
 fn the_grid_follows_the_detail_and_the_midrib_is_in_the_middle_of_the_texture() {
     for form in FormName::ALL.into_iter().filter(|form| form.near().is_some()) {
-        let faces: Vec<usize> = (1..=3).map(|d| of_library(form.form(), d, [0.1, 0.05], 0.0).faces.len()).collect();
+        let faces: Vec<usize> = (1..=3).map(|d| of_library(form.form(), d, [0.1, 0.05], 0.0).0.faces.len()).collect();
         assert!(faces[0] < faces[1] && faces[1] < faces[2] && faces[2] < 21_000, "{form:?}: {faces:?}");
     }
     let blade = leaf::leaf(&Blade { margin: Margin::Toothed, arch_deg: 80.0, ..Blade::default() }, 0.5, 3);
@@ -107,7 +107,7 @@ fn a_rounder_berry_stays_closed_and_nears_the_sphere_of_its_corners() {
     let berry = FormName::Berry.form();
     let mut before = 0.0;
     for detail in 1..=3 {
-        let (vertices, faces) = placed(of_library(berry, detail, [0.02, 0.02], 0.0), [0.02, 0.02], 1.0);
+        let (vertices, faces) = placed(of_library(berry, detail, [0.02, 0.02], 0.0).0, [0.02, 0.02], 1.0);
         assert_closed(&vertices, &faces);
         let share = volume(&vertices, &faces) / (std::f64::consts::PI / 6.0 * 8e-6);
         assert!(share > before && share < 1.03, "{detail}: {share}");
