@@ -5,12 +5,15 @@
 //! (Chen & Black 1992). Absent: the forms by themselves, whose tests stand beside them.
 
 mod program;
+#[path = "program/side_by_side.rs"]
+mod side_by_side;
 
 use phytomer::outputs::meshes::{Face, Joints, Mesh, MeshOptions, Scene, mesh_plant};
 use phytomer::run::regrowth::Regrowth;
 use phytomer::sim::plant::{Class, Kind as Kinds, OrganId, Plant};
 use phytomer_config::{Kind, presets, validate_species};
 use program::{program as phytomer_program, run, said};
+use side_by_side::each;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use tempfile::tempdir;
@@ -73,8 +76,8 @@ fn off(plant: &Plant, age: u32, detail: u8, most: usize) -> (f64, usize) {
 
 #[test]
 fn leaves_of_every_shipped_species_have_their_areas_at_every_detail() {
-    let (mut wrong, mut measured) = (Vec::new(), 0);
-    for (name, _) in presets(Kind::Species) {
+    let of_species = each(presets(Kind::Species).to_vec(), |(name, _)| {
+        let (mut wrong, mut measured) = (Vec::new(), 0);
         let species = validate_species(name, 1).unwrap_or_else(|report| panic!("{}", report.render(false)));
         let age = species.shown_at().min(40);
         let species = validate_species(name, age).unwrap_or_else(|report| panic!("{}", report.render(false)));
@@ -89,7 +92,10 @@ fn leaves_of_every_shipped_species_have_their_areas_at_every_detail() {
             Ok(())
         });
         shown.unwrap_or_else(|error| panic!("{name}: {error}"));
-    }
+        (wrong, measured)
+    });
+    let measured: usize = of_species.iter().map(|(_, measured)| measured).sum();
+    let wrong: Vec<String> = of_species.into_iter().flat_map(|(wrong, _)| wrong).collect();
     assert!(wrong.is_empty(), "{wrong:#?}");
     assert!(measured > 5000, "{measured} leaves");
 }

@@ -42,6 +42,8 @@ fn columns(plant: &Plant) -> String {
 fn voxels(field: &Field, by: [i32; 2]) -> Vec<([i32; 3], u64, u64)> {
     let grid = &field.grid;
     let mut all = Vec::new();
+    // Light is kept of wanted voxels alone, in the order of their indices.
+    let mut light = field.light.iter();
     for (brick, place) in grid.bricks.iter().enumerate() {
         for inner in 0..512_usize {
             let index = brick * 512 + inner;
@@ -49,10 +51,11 @@ fn voxels(field: &Field, by: [i32; 2]) -> Vec<([i32; 3], u64, u64)> {
                 let within = [inner & 7, (inner >> 3) & 7, inner >> 6];
                 let [x, y, z] = [0, 1, 2].map(|k| place[k] * 8 + within[k] as i32);
                 let voxel = grid.within([x - by[0], y - by[1], z]);
-                all.push((voxel, grid.area[index], field.light[index].to_bits()));
+                all.push((voxel, grid.area[index], light.next().expect("light of each wanted voxel").to_bits()));
             }
         }
     }
+    assert_eq!(light.next(), None);
     all.sort_unstable();
     all
 }

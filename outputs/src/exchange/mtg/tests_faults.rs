@@ -149,6 +149,20 @@ fn broken(sound: &[u8], words: &mut Words) -> Vec<u8> {
     bytes
 }
 
+/// A range in a few letters stands for branches that bear one another, and each would have a column in every line.
+#[test]
+fn a_chain_of_branches_as_deep_as_it_is_long_is_not_written() {
+    for (code, is_written) in [("/P1/A1++A3000", true), ("/P1/A1++A99000", false)] {
+        let (plants, report) = small(&format!("{code}\n"));
+        assert!(report.faults().is_empty(), "{code}: {:?}", report.faults());
+        let written = Mtg.write(&plants, &mut InMemory::default(), &mut Losses::default());
+        assert_eq!(written.is_ok(), is_written, "{code}");
+        if let Err(error) = written {
+            assert!(error.to_string().contains("deep in one another") && error.to_string().contains("OPF"), "{error}");
+        }
+    }
+}
+
 /// Reads broken files and writes again what could be read. `PHYTOMER_MUTATIONS` asks for more of them.
 #[test]
 fn broken_files_are_refused_or_read_and_written() {
@@ -170,7 +184,10 @@ fn broken_files_are_refused_or_read_and_written() {
         }
         taken += 1;
         let (mut out, mut losses) = (InMemory::default(), Losses::default());
-        Mtg.write(&plants, &mut out, &mut losses).unwrap();
+        if let Err(error) = Mtg.write(&plants, &mut out, &mut losses) {
+            assert!(error.to_string().contains("deep in one another"), "{number}: {error}");
+            continue;
+        }
         let (again, report) = read_bytes(&out.main, None);
         assert!(report.faults().is_empty(), "{number}: {:?}", report.faults());
         assert_eq!(again.entities(), plants.entities(), "{number}");

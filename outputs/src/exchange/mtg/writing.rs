@@ -8,7 +8,7 @@ mod order;
 mod rows;
 
 use super::names::{MARK, Meaning, TAKEN, WRITTEN};
-use crate::exchange::contract::Outgoing;
+use crate::exchange::contract::{MOST_BYTES, Outgoing};
 use crate::exchange::description::{Description, Entity, FeatureType, Link};
 use crate::exchange::losses::Losses;
 use std::collections::{BTreeSet, HashSet};
@@ -28,6 +28,7 @@ pub fn write(description: &Description, out: &mut dyn Outgoing, losses: &mut Los
     tell(description, losses);
     let written = Written::of(description, losses);
     let columns = description.individuals.iter().map(order::width).max().unwrap_or(1);
+    check_size(description, columns)?;
     let mut told = Losses::default();
     out.file(None, &mut |file| {
         let mut file = io::BufWriter::with_capacity(1 << 16, file);
@@ -40,6 +41,20 @@ pub fn write(description: &Description, out: &mut dyn Outgoing, losses: &mut Los
     })?;
     told.told().iter().for_each(|loss| losses.add(&loss.what, loss.count, &loss.instead));
     Ok(())
+}
+
+/// Refuses plants whose file nothing could read. A line has a column for each step of branching, so a chain of branches
+/// that bear one another makes a file as large as the square of their number, and a range such as `A1++A999999` states
+/// one in a few letters.
+fn check_size(description: &Description, columns: usize) -> io::Result<()> {
+    let entities: usize = description.individuals.iter().map(|individual| individual.entities.len()).sum();
+    if entities.saturating_mul(columns) <= MOST_BYTES {
+        return Ok(());
+    }
+    Err(io::Error::other(format!(
+        "branches stand {columns} deep in one another, and each of {entities} lines would have so many columns: an MTG of \
+         more than {MOST_BYTES} bytes, which no reader takes; OPF has no such columns"
+    )))
 }
 
 fn head(description: &Description, written: &Written, columns: usize, file: &mut dyn Write) -> io::Result<()> {
