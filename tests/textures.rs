@@ -151,8 +151,8 @@ fn bark_has_its_stated_width() {
     // The first tube: the sides of 9 + 9 vertices around the first internode of the trunk.
     let along = |k: usize| places[k][2];
     let (times, length) = (texture[8][0], along(9) - along(0));
-    let around =
-        (0..8).map(|k| (0..3).map(|c| (places[k + 1][c] - places[k][c]).powi(2)).sum::<f64>().sqrt()).sum::<f64>();
+    let apart = |k: usize| (0..3).map(|c| places[k + 1][c] - places[k][c]).map(|x| x * x).sum::<f64>().sqrt();
+    let around = (0..8).map(apart).sum::<f64>();
     let covered = length / (texture[9][1] - texture[0][1]);
     assert!(times >= 1.0 && times.fract() == 0.0, "{times}");
     let (wide, high) = (around / times, covered);

@@ -68,7 +68,8 @@ impl NearStem {
         let shares: Vec<f32> = self.profile.iter().map(|place| place[0]).collect();
         let goes = shares.windows(2).all(|pair| pair[1] > pair[0]);
         let spans = shares.first() == Some(&0.0) && shares.last() == Some(&1.0);
-        if !self.profile.is_empty() && !(goes && spans && shares.len() <= MOST_PLACES) {
+        let is_sound = goes && spans && shares.len() <= MOST_PLACES;
+        if !self.profile.is_empty() && !is_sound {
             let expected = "2 to 16 places whose shares ascend from 0 to 1";
             wrong("profile", format!("shares {shares:?}"), expected);
         }
