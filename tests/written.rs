@@ -32,7 +32,7 @@ fn count_of(folder: &Path) -> usize {
 fn a_name_of_another_format_is_refused() {
     let folder = tempdir().unwrap();
     for (words, head, extension) in drawn() {
-        for out in ["x.obj", "x.gltf", "x.jpg", "x.svg", "x.parquet", "a folder/"] {
+        for out in ["x.fbx", "x.gltf", "x.jpg", "x.svg", "x.parquet", "a folder/"] {
             let told = written(folder.path(), &words, out).ending(2);
             let meant = if out.ends_with('/') { "this is a folder" } else { &format!("(.{extension})") };
             assert!(told.stderr.contains(meant) && told.stdout.is_empty(), "{out}: {}", told.stderr);
