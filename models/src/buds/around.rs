@@ -7,8 +7,9 @@
 
 use super::compile::ContactLaws;
 use super::params::Answer;
+use super::start::Start;
 use phytomer_sim::plant::{AxisId, NodeId, Plant};
-use phytomer_sim::pose::{Ahead, bud_base};
+use phytomer_sim::pose::Ahead;
 use phytomer_sim::rotation::Rotation;
 use phytomer_sim::site::Site;
 use phytomer_sim::site::solids::{CLEARANCE, Solids, Surface};
@@ -73,17 +74,15 @@ impl<'a> Around<'a> {
         !site.solids().is_empty() || laws.cone.length > 0.0 || laws.answer == Answer::Fasten
     }
 
-    /// What is around the bud of an axis, as it stood at the end of the last tick.
-    pub fn of(site: &'a Site, laws: ContactLaws, plant: &Plant, axis: AxisId) -> Self {
+    /// What is around the bud of an axis which stood at `start` at the end of the last tick.
+    pub fn of(site: &'a Site, laws: ContactLaws, plant: &Plant, axis: AxisId, start: Start) -> Self {
         let solids = site.solids();
         let stems = site.stems.as_deref().filter(|stems| !stems.is_empty());
-        let base = bud_base(plant, axis);
-        let place = plant.place;
-        let posed = (plant.axes.last_node[axis.index()].some(), [0, 1, 2].map(|k| place[k] + f64::from(base[k])));
+        let (place, posed, grown) = (plant.place, (start.node, start.tip), start.grown);
         let spared = Spared { plant: plant.id, axis: axis.0 };
-        let (beside, ahead, free, grown, felt, stuck) = (Beside::default(), None, 0.0, 0.0, None, false);
+        let (beside, ahead, free, felt, stuck) = (Beside::default(), None, 0.0, None, false);
         let mut around = Self { solids, stems, beside, spared, laws, place, posed, ahead, free, grown, felt, stuck };
-        around.free = if solids.is_empty() { f64::INFINITY } else { around.free_about(posed.1, 0.0) };
+        around.free = if solids.is_empty() { f64::INFINITY } else { around.free_about(posed.1, 0.0) - grown };
         around
     }
 

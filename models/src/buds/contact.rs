@@ -14,16 +14,48 @@ use super::compile::BudModel;
 use super::grow::{Axis, Full};
 use super::node::Drawn;
 use super::params::{Answer, ApexEnd};
+use super::start::Start;
 use phytomer_sim::plant::{ApexFate, EventKind, NodeId, OrganId, Plant, Rest};
 use phytomer_sim::site::Site;
 use phytomer_sim::site::solids::CLEARANCE;
-use phytomer_sim::site::stems::Beside;
+use phytomer_sim::site::stems::{Beside, Spared};
 use phytomer_sim::site::way::Step;
 
 impl<'a> Axis<'a> {
     /// Lets its shoots meet the solids and stems of a site.
     pub fn look_around(&mut self, site: Option<&'a Site>) {
         self.met = site.filter(|site| Around::meets(site));
+        if self.met.is_some_and(|site| !Around::feels(site, &self.model.contact)) {
+            self.start = Some(Start::of(self.plant, self.bud.axis));
+        }
+    }
+
+    /// Whether its growth units are made as in the open, unless something turns out to be within their reach.
+    pub(super) fn begins_free(&self) -> bool {
+        self.met.is_none() || self.start.is_some()
+    }
+
+    /// Whether a growth unit of so many nodes meets nothing, so that none of its nodes asks. From the first unit that
+    /// may meet something, each node of the axis asks until the end of the tick; what was planned is made before.
+    #[inline(always)]
+    pub(super) fn is_free(&mut self, short: bool, nodes: u32) -> Result<bool, Full> {
+        if self.met.is_none() { Ok(true) } else { self.asks_whether_free(short, nodes) }
+    }
+
+    #[inline(never)]
+    fn asks_whether_free(&mut self, short: bool, nodes: u32) -> Result<bool, Full> {
+        let (Some(site), Some(start)) = (self.met, &mut self.start) else { return Ok(false) };
+        let (plant, axis) = (self.plant.id, self.bud.axis);
+        let spared = Spared { plant, axis: axis.0 };
+        let grows = |stems| start.grows(&self.laws.reach, (short, nodes), stems, spared);
+        if nodes == 0 || site.stems.as_deref().is_none_or(grows) {
+            return Ok(true);
+        }
+        let start = *start;
+        (self.start, self.plans) = (None, false);
+        self.make_planned()?;
+        self.around = Some(Box::new(Around::of(site, self.model.contact, self.plant, axis, start)));
+        Ok(false)
     }
 
     /// Asks at a clock step whether the bud meets something.
@@ -117,5 +149,5 @@ impl<'a> Axis<'a> {
 
 /// What is around a bud, found when it is first asked in a tick: before the axis has grown in it.
 fn around<'a>(site: &'a Site, model: &BudModel, plant: &Plant, bud: ApicalBud) -> Box<Around<'a>> {
-    Box::new(Around::of(site, model.contact, plant, bud.axis))
+    Box::new(Around::of(site, model.contact, plant, bud.axis, Start::of(plant, bud.axis)))
 }

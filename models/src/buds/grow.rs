@@ -9,12 +9,13 @@
 //! [`Axis::grow`] takes an axis from any age to any later one; whether a plant grows axis by axis to the end or tick by
 //! tick, each axis makes the same draws at the same steps.
 
-use super::around::Around;
+use super::around::{Around, Lie};
 use super::birth::at_birth;
 use super::bud::ApicalBud;
 use super::compile::{BudModel, OrderLaws, Passage};
 use super::params::ApexEnd;
 use super::record::Words;
+use super::start::Start;
 use crate::law::{At, height_in_steps};
 use phytomer_sim::clock::{NEVER, Speed, Tick};
 use phytomer_sim::plant::{ApexFate, Event, EventKind, NodeId, Plant};
@@ -38,6 +39,8 @@ pub(super) struct Axis<'a> {
     height: u32,
     /// The site, where shoots meet something on it.
     pub met: Option<&'a Site>,
+    /// Where it stood before this tick, as long as it meets nothing there and its nodes need not ask.
+    pub start: Option<Start>,
     /// What the bud can meet there, once it has been asked; boxed, since most plants grow in the open.
     pub around: Option<Box<Around<'a>>>,
     /// Whether it meets something at this step: 1 or 0.
@@ -79,6 +82,7 @@ impl<'a> Axis<'a> {
             dimension: 0,
             height,
             met: None,
+            start: None,
             around: None,
             contact: 0,
             shade,
@@ -101,7 +105,7 @@ impl<'a> Axis<'a> {
     fn makes_columns(&self) -> bool {
         let responds = !self.laws.node.spare.places().is_empty();
         let in_full_light = self.laws.light_alone && self.shade == 0;
-        self.laws.node.block > 0 && self.met.is_none() && self.plant.exposure.is_none() && (!responds || in_full_light)
+        self.laws.node.block > 0 && self.begins_free() && self.plant.exposure.is_none() && (!responds || in_full_light)
     }
 
     /// Reads the quantities that the axis has drawn at its birth and that its growth needs. They are the same each
@@ -235,9 +239,17 @@ impl<'a> Axis<'a> {
             self.terminal_flower();
             return if self.plant.is_overgrown() { Err(Full) } else { Ok(ended) };
         }
+        self.grow_in_step(at)
+    }
+
+    /// The rest of a step at which the bud neither dies, pauses nor flowers: its growth units, then its passage into
+    /// another state. Whether the apex lives.
+    #[inline(always)]
+    pub(super) fn grow_in_step(&mut self, at: &mut At) -> Result<bool, Full> {
         if let Some(lives) = self.answer_contact()? {
             return Ok(lives);
         }
+        let laws = &self.laws.step;
         for unit in 0..laws.per_step.draw(self.words.step(), 0, *at) {
             let grown = self.growth_unit(unit, *at)?;
             if self.ends_stuck()? {
@@ -303,6 +315,7 @@ impl<'a> Axis<'a> {
             false => [preformed, neoformed],
         };
         let nodes = preformed + neoformed;
+        let is_free = self.is_free(short, nodes)?;
         if laws.zone_ranks.are_drawn() {
             let Words { zones, .. } = &mut *self.words;
             let mut drawn = std::mem::take(zones);
@@ -318,7 +331,7 @@ impl<'a> Axis<'a> {
         for rank in 1..=nodes {
             self.read_node();
             let drawn = self.draw_internode(rank, [short, rank > preformed]);
-            let Some(lie) = self.lie(&drawn) else { break };
+            let Some(lie) = (if is_free { Some(Lie::Free) } else { self.lie(&drawn) }) else { break };
             self.node(drawn, nodes, lie)?;
             made = rank;
         }

@@ -23,9 +23,12 @@ mod plan;
 mod planned;
 mod record;
 mod site;
+mod start;
 mod steps;
 #[cfg(test)]
 mod tests;
+#[cfg(test)]
+mod tests_apart;
 #[cfg(test)]
 mod tests_chain;
 #[cfg(test)]

@@ -34,7 +34,7 @@ impl Axis<'_> {
     pub(super) fn takes_plain_steps(&self) -> bool {
         let OrderLaws { step, light_alone, .. } = self.laws;
         let reads_responses = !step.spare.places().is_empty() && (self.words.shaded || !light_alone);
-        step.is_plain && !reads_responses && self.met.is_none() && self.plant.exposure.is_none()
+        step.is_plain && !reads_responses && self.begins_free() && self.plant.exposure.is_none()
     }
 
     /// Goes through the steps up to the tick `last`, `in_all` of them since its birth. Whether the apex lives.
@@ -61,6 +61,14 @@ impl Axis<'_> {
                 let short = tests.short.happens(words, &at);
                 let number = if short { &laws.short_nodes } else { &laws.long_nodes };
                 let nodes = number.draw_at(words, &at);
+                if !self.is_free(short, nodes)? {
+                    self.stand_at(&at);
+                    self.feel();
+                    if !self.grow_in_step(&mut at)? {
+                        return Ok(false);
+                    }
+                    continue;
+                }
                 self.grow_unit(&at, short, nodes)?;
                 self.note_at(&at, EventKind::Grew, nodes);
                 // The growth unit has a new bud at its tip.

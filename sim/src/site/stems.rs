@@ -31,6 +31,8 @@ use stem::{ROUNDING, Stem};
 const FEWEST_PLANTS: usize = 16;
 /// How far from the box about a plant the plants are known that are beside it, metres along each axis.
 const ASIDE: f64 = 0.5;
+/// The reach up to which cells are asked whether all stems are far, metres: a ball of so few cells.
+const SHORT: f64 = 0.1;
 
 /// Whose stems shoots meet.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
@@ -150,6 +152,18 @@ impl Stems {
             let plant = &self.plants[plant as usize];
             show(plant, &plant.stems[node as usize]);
         }
+    }
+
+    /// Whether it is soon known that no stem which may be met is nearer than `reach` to a point: no box about a plant
+    /// is, or where the reach is short, no stem in the cells about the point.
+    pub fn are_far(&self, point: Point, reach: f64, spared: Spared) -> bool {
+        let mut far = true;
+        self.each_plant_near(point, reach, spared, &mut |plant| {
+            far = far
+                && reach < SHORT
+                && self.plants[plant as usize].is_far(point, reach, |of, stem| self.is_met(of, stem, spared));
+        });
+        far
     }
 
     /// Shows each plant whose stems may be met, and may be nearer than `reach` to a point.

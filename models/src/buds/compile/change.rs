@@ -48,6 +48,12 @@ impl ByAge {
         }
     }
 
+    /// No factor is larger.
+    pub fn most(&self) -> f64 {
+        let most = |of: &[f64]| of.iter().copied().reduce(f64::max).unwrap_or(1.0);
+        most(&self.by_age) * most(&self.by_shade)
+    }
+
     /// Whether nothing but shade changes anything, so that in full light no word is needed.
     pub fn is_of_light_alone(&self) -> bool {
         let neutral = if self.joins { 0.0 } else { 1.0 };

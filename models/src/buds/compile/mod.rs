@@ -14,6 +14,7 @@ mod head;
 mod look;
 mod node;
 mod organs;
+mod reach;
 mod relay;
 mod response;
 mod step;
@@ -30,6 +31,7 @@ pub(super) use node::{
     LeafFall, NODE_OF_RESPONSES, NodeLaws, OrganLaws, PLACE_OF_EATEN_FLOWERS, PLACE_OF_EATEN_FRUITS,
     PLACE_OF_EATEN_LEAVES,
 };
+pub(super) use reach::Reach;
 pub(super) use relay::EndLaws;
 pub(super) use step::{PLACE_OF_DEATH, PLACE_OF_WEAKNESS, Passage, STEP_OF_RESPONSES, StepLaws};
 pub(super) use words::{Chance, Draws, Number, Piece, Spare, Tested, Things};
@@ -70,6 +72,8 @@ pub(super) struct OrderLaws {
     pub step: StepLaws,
     pub node: NodeLaws,
     pub end: EndLaws,
+    /// How far growth units can reach.
+    pub reach: Reach,
     /// Whether some law depends on a variable that moves with growth units alone.
     pub asks_the_bud: bool,
     /// Whether some law depends on the height of the plant.
@@ -117,6 +121,9 @@ impl Buds {
         if !faults.is_empty() {
             faults.sort_by(|a, b| a.path.cmp(&b.path));
             return Err(faults);
+        }
+        for laws in &mut orders {
+            laws.reach = Reach::of(&laws.node);
         }
         if organ_trends.iter().all(|of| *of == OrganTrends::default()) {
             organ_trends.clear();
@@ -173,6 +180,7 @@ impl OrderLaws {
         Self {
             number: compiler.order_number(),
             head,
+            reach: Reach::UNKNOWN,
             node,
             end,
             thickening: compiler.thickening(&order.internode.thickening_mm),

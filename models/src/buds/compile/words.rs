@@ -290,6 +290,12 @@ impl Measure {
         self.times.as_ref().map_or(own, |factor| many::times(own, factor.at(at)))
     }
 
+    /// No larger value is drawn, in SI units or radians.
+    pub fn most(&self) -> f64 {
+        let own = self.table.extent()[1] * f64::from(self.unit);
+        own * self.times.as_ref().map_or(1.0, ByAge::most)
+    }
+
     /// Multiplies the measure by a factor.
     pub fn respond(&mut self, factor: ByAge) {
         self.light_alone = factor.is_of_light_alone();

@@ -139,6 +139,18 @@ impl OfPlant {
         })
     }
 
+    /// Whether no stem that counts is nearer than `reach` to a point of the plot, as far as few cells tell.
+    pub(super) fn is_far(&self, point: Point, reach: f64, counts: impl Fn(&Self, &Stem) -> bool) -> bool {
+        let (at, cells) = ([0, 1, 2].map(|k| point[k] - self.place[k]), self.cells());
+        let Some(range) = cells.about(at, reach) else { return false };
+        let mut far = true;
+        cells.each_in(&range, |node| {
+            let stem = &self.stems[node as usize];
+            far = far && !(counts(self, stem) && stem.is_near(at, reach));
+        });
+        far
+    }
+
     /// The nodes whose stems stand.
     pub(super) fn each(&self) -> impl Iterator<Item = u32> {
         (0..).zip(&self.stems).filter(|(_, stem)| stem.entered >= 0.0).map(|(node, _)| node)
