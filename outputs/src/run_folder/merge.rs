@@ -304,12 +304,15 @@ impl Target {
         report: &ShardReport,
         checking: &Checking,
     ) -> Result<Option<MergeFault>, Error> {
-        for file in &report.files {
+        for (place, file) in report.files.iter().enumerate() {
             if files == Files::Linked && self.link(from, file)? {
                 continue;
             }
             let sha256 = self.copy(from, file, checking)?;
             if sha256 != file.sha256 {
+                // Nothing of a part that is not entered stays.
+                let others = &report.files[..place];
+                others.iter().try_for_each(|other| durable::remove(&self.path.join(&other.path)))?;
                 let how = check::other_hash(&sha256, file);
                 return Ok(Some(MergeFault::Damaged { folder: from.to_path_buf(), file: file.path.clone(), how }));
             }
