@@ -21,7 +21,7 @@ pub const CLASSES: [Class; 3] = [Class::Leaf, Class::Flower, Class::Fruit];
 pub struct Thinned {
     /// The share of the organs that is kept, about: an organ is kept where the number of its key is below it.
     pub share: f64,
-    /// How many times its own area an organ has, for each of [`CLASSES`].
+    /// How many times its own area an organ has, for leaves, flowers and fruits.
     pub larger: [f64; CLASSES.len()],
 }
 
