@@ -1,7 +1,7 @@
 //! The place from which an axis grows on in a tick, and whether a growth unit meets nothing, whatever its way is.
 //!
 //! An axis with no stem within the reach of its growth unit asks once a unit, makes its nodes as in the open, and
-//! nobody finds out how they lie. Absent: what is asked node by node where something is near (`around`).
+//! how they lie is not asked. Absent: what is asked node by node where something is near (`around`).
 
 use super::compile::Reach;
 use phytomer_sim::plant::{AxisId, NodeId, Plant};

@@ -12,7 +12,7 @@ use phytomer_sim::plant::Plant;
 use phytomer_sim::random::{PlantRandom, Purpose, Sought, WORDS_OF_BLOCK, WordBlock};
 use std::ops::Range;
 
-/// No node has as many things of one kind, in blocks of words.
+/// Room for the words of more things of one kind than a node has, in blocks.
 const MOST_ON_NODE: usize = 64 / WORDS_OF_BLOCK;
 
 /// The words that an axis which goes through many steps reads at once, the first time and later: blocks of a stream are
@@ -169,7 +169,7 @@ impl Ahead {
 }
 
 /// The number of steps that a bud reads at once when it begins to grow to `age`; `None` where that is not known before.
-/// Where words of responses stand behind each step it is one.
+/// Steps whose words are followed by words of responses are read one at a time.
 fn steps_at_once(laws: &OrderLaws, plant: &Plant, bud: &ApicalBud, age: Tick) -> Option<u32> {
     let width = laws.step.width as u32;
     if width == 0 {
