@@ -47,8 +47,8 @@ struct Told {
     /// The greatest diameter at 1.3 m of living internodes of order 1.
     at_breast_height: f64,
     lowest_leaf: f64,
-    /// Each component with whether it lives.
-    standing: BTreeMap<u32, bool>,
+    /// Each component with whether it lives, by number.
+    standing: Vec<(u32, bool)>,
 }
 
 impl Told {
@@ -152,10 +152,14 @@ fn by_records(records: &Columns) -> Plants {
     let (length, kind) = (number("length_m"), records.words("kind"));
     let (base, dir) = (["x_m", "y_m", "z_m"].map(number), ["dir_x", "dir_y", "dir_z"].map(number));
     let mut plants = Plants::new();
+    let mut told = &mut Told::of_nothing();
     for row in 0..plant.len() {
-        let told = plants.entry((plant[row] as u32, age[row] as u32)).or_insert_with(Told::of_nothing);
+        // Rows of one plant at one age follow one another, mostly.
+        if row == 0 || (plant[row], age[row]) != (plant[row - 1], age[row - 1]) {
+            told = plants.entry((plant[row] as u32, age[row] as u32)).or_insert_with(Told::of_nothing);
+        }
         let lives = alive[row] == 1.0;
-        told.standing.insert(component[row] as u32, lives);
+        told.standing.push((component[row] as u32, lives));
         let stem = kind[row].ends_with("internode");
         let counted = match kind[row].as_str() {
             _ if stem && lives => "internodes",
@@ -195,6 +199,7 @@ fn by_records(records: &Columns) -> Plants {
         }
         told.wood_volume += if stem { volume[row] } else { 0.0 };
     }
+    plants.values_mut().for_each(|told| told.standing.sort_unstable());
     plants
 }
 
@@ -218,23 +223,24 @@ impl<'a> Components<'a> {
     }
 
     /// The components that stand at an age, living or dead, and the age at which the last of them died.
-    fn standing(&self, plant: u32, age: u32) -> (BTreeMap<u32, bool>, f64) {
+    fn standing(&self, plant: u32, age: u32) -> (Vec<(u32, bool)>, f64) {
         let number = |name: &str| self.columns.numbers(name);
         let (component, birth) = (number("component_id"), number("birth_age"));
         let (death, shed) = (number("death_age"), number("shed_age"));
-        let (mut standing, mut last) = (BTreeMap::new(), f64::NAN);
+        let (mut standing, mut last) = (Vec::new(), f64::NAN);
         let age = f64::from(age);
         // Null is NaN and stands for a tick that never comes.
         let before = |tick: f64| tick.is_nan() || age < tick;
         for row in self.of(plant).iter().copied().filter(|row| birth[*row] <= age) {
             assert!(shed[row].is_nan() || shed[row] >= death[row], "nothing falls before its death: component {row}");
             if before(shed[row]) {
-                standing.insert(component[row] as u32, before(death[row]));
+                standing.push((component[row] as u32, before(death[row])));
             }
             if !before(death[row]) {
                 last = death[row].max(last);
             }
         }
+        standing.sort_unstable();
         (standing, last)
     }
 
@@ -255,7 +261,7 @@ fn check(summary: &Columns, row: usize, told: &Told, last_death: f64) {
         assert_eq!(number(column), told.counts.get(column).copied().unwrap_or_default(), "{column}");
     }
     assert_eq!((number("axes"), number("max_order")), (told.axes.len() as f64, told.max_order), "axes, max_order");
-    let lives = told.standing.values().any(|lives| *lives);
+    let lives = told.standing.iter().any(|(_, lives)| *lives);
     assert_eq!(number("alive") == 1.0, lives, "alive");
     let death = if lives { f64::NAN } else { last_death };
     assert_eq!(number("death_age").to_bits(), death.to_bits(), "death_age");

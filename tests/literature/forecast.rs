@@ -27,6 +27,17 @@ type Counts = Vec<Vec<[f64; 4]>>;
 /// Compares the forecast for the plants of a model with grown plants. Returns the differences in words.
 pub fn differences(name: &str, model: &dyn GrowthModel, until: Tick, components: f64) -> Vec<String> {
     let expected = model.expectation(until).unwrap_or_else(|| panic!("{name} has no forecast"));
+    differences_from(&expected, name, model, until, components)
+}
+
+/// The same, with the forecast until that age.
+fn differences_from(
+    expected: &Expectation,
+    name: &str,
+    model: &dyn GrowthModel,
+    until: Tick,
+    components: f64,
+) -> Vec<String> {
     let last = (1..=until).rev().find(|&age| expected.components(age) <= LARGE).unwrap_or(1);
     let ages = [last.div_ceil(3), (2 * last).div_ceil(3), last];
     let (fewest, most) = PLANTS.into_inner();
@@ -39,7 +50,7 @@ pub fn differences(name: &str, model: &dyn GrowthModel, until: Tick, components:
             for (counted, what) in COUNTED.iter().enumerate() {
                 let sample = Sample::of(counts.iter().map(|plant| plant[order][nth][counted]));
                 let foretold = figure(figures, counted, age);
-                if let Some(problem) = misses(&sample, foretold, certainty_of(&expected, counted)) {
+                if let Some(problem) = misses(&sample, foretold, certainty_of(expected, counted)) {
                     differences.push(format!("{name}: {what} of order {} at age {age}: {problem}", order + 1));
                 }
             }
@@ -96,26 +107,39 @@ fn counted(plant: &Plant, ages: &[Tick], orders: usize) -> Counts {
     let mut count = |axis: usize, what: usize, birth: Tick| {
         // The last order of a bound has the higher ones too.
         let order = (usize::from(plant.axes.order[axis]) - 1).min(orders - 1);
-        let by = counts[order].iter_mut().zip(ages).filter(|(_, age)| birth <= **age);
-        by.for_each(|(counts, _)| counts[what] += 1.0);
+        for (nth, age) in ages.iter().enumerate() {
+            if birth <= *age {
+                counts[order][nth][what] += 1.0;
+            }
+        }
     };
-    (0..plant.axes.len()).for_each(|axis| count(axis, 0, plant.axes.appearance[axis]));
-    let events = plant.events.iter().flatten().filter(|event| event.kind == EventKind::Grew);
-    events.for_each(|event| count(event.axis.index(), 1, event.tick));
-    let nodes = &plant.nodes;
-    (0..nodes.len()).for_each(|node| count(nodes.axis[node].index(), 2, nodes.birth[node]));
-    let organs = &plant.organs;
-    // An organ planned for a branch that died before the organ appeared is not counted.
-    let appeared = (0..organs.len()).filter(|&organ| organs.birth[organ] < organs.death[organ]);
-    appeared.for_each(|organ| count(nodes.axis[organs.node[organ].index()].index(), 3, organs.birth[organ]));
+    for axis in 0..plant.axes.len() {
+        count(axis, 0, plant.axes.appearance[axis]);
+    }
+    for event in plant.events.iter().flatten().filter(|event| event.kind == EventKind::Grew) {
+        count(event.axis.index(), 1, event.tick);
+    }
+    let (nodes, organs) = (&plant.nodes, &plant.organs);
+    for node in 0..nodes.len() {
+        count(nodes.axis[node].index(), 2, nodes.birth[node]);
+    }
+    for organ in 0..organs.len() {
+        // An organ planned for a branch that died before the organ appeared is not counted.
+        if organs.birth[organ] < organs.death[organ] {
+            count(nodes.axis[organs.node[organ].index()].index(), 3, organs.birth[organ]);
+        }
+    }
     counts
 }
 
 /// In a model that makes its plant anew at each age growth units are its nodes. Of a bound, which is far above what
 /// grows, few and young plants tell enough.
-fn differences_of(name: &str, of: &Model, model: &dyn GrowthModel, until: Tick) -> Vec<String> {
-    let (until, components) = if is_bounded(of) { (until.min(20), 0.0) } else { (until, COMPONENTS) };
-    let mut differences = differences(name, model, until, components);
+fn differences_of(name: &str, of: &Model, model: &dyn GrowthModel, until: Tick, expected: &Expectation) -> Vec<String> {
+    let mut differences = if is_bounded(of) {
+        differences(name, model, until.min(20), 0.0)
+    } else {
+        differences_from(expected, name, model, until, COMPONENTS)
+    };
     if !model.growth().keeps_its_past() {
         differences.retain(|difference| !difference.contains("growth units"));
     }
@@ -134,35 +158,6 @@ fn is_foretold(model: &Model) -> bool {
 /// Whether nothing but a bound is known of the plants of a model.
 fn is_bounded(model: &Model) -> bool {
     matches!(model, Model::Greene(_) | Model::Cohen(_))
-}
-
-#[test]
-fn every_shipped_species_grows_as_foretold() {
-    let species = presets(Kind::Species).into_par_iter().flat_map_iter(|(name, _)| {
-        let resolved = validate_species(name, SPECIES_ALONE_UNTIL).unwrap_or_else(|report| panic!("{name}: {report}"));
-        let until = resolved.shown_at();
-        if !is_foretold(&resolved.species.model) {
-            assert!(resolved.model.expectation(until).is_none(), "{name} has a forecast, which is to be tested");
-            return Vec::new();
-        }
-        let model = resolved.species.model.compile(until).unwrap_or_else(|faults| panic!("{name}: {faults:?}"));
-        differences_of(name, &resolved.species.model, model.as_ref(), until)
-    });
-    let differences: Vec<String> = species.collect();
-    assert!(differences.is_empty(), "{}", differences.join("\n"));
-}
-
-#[test]
-fn every_shipped_scenario_grows_as_foretold() {
-    let scenarios = presets(Kind::Scenario).into_par_iter().flat_map_iter(|(name, _)| {
-        let resolved = validate(name).unwrap_or_else(|report| panic!("{name}: {report}"));
-        if !is_foretold(&resolved.species.model) {
-            return Vec::new();
-        }
-        differences_of(name, &resolved.species.model, resolved.model.as_ref(), resolved.scenario.ages.until)
-    });
-    let differences: Vec<String> = scenarios.collect();
-    assert!(differences.is_empty(), "{}", differences.join("\n"));
 }
 
 /// The trees of stems whose numbers follow from what is drawn. The clones of the first three are no whole number a
@@ -190,22 +185,44 @@ const DRAWN: [(&str, Certainty); 16] = [
 ];
 
 /// Every shipped species that has a forecast has it in closed form, but for those of which no more than a bound is
-/// known, and for the named trees. All are held to what grows, by the test above.
+/// known, and for the named trees; and all grow as foretold.
 #[test]
-fn the_forecast_of_every_shipped_species_is_exact() {
-    let told = presets(Kind::Species).into_par_iter().filter_map(|(name, _)| {
+fn every_shipped_species_grows_as_foretold() {
+    let species = presets(Kind::Species).into_par_iter().flat_map_iter(|(name, _)| {
         let resolved = validate_species(name, SPECIES_ALONE_UNTIL).unwrap_or_else(|report| panic!("{name}: {report}"));
-        if !is_foretold(&resolved.species.model) {
-            return None;
-        }
-        let drawn = DRAWN.into_iter().find_map(|(drawn, certainty)| (drawn == *name).then_some(certainty));
-        let bounded = is_bounded(&resolved.species.model).then_some(Certainty::Bound);
-        let known = drawn.or(bounded).unwrap_or(Certainty::Exact);
         let until = resolved.shown_at();
-        let expected = resolved.model.expectation(until).unwrap_or_else(|| panic!("{name} has no forecast"));
-        (expected.certainty() != known).then(|| format!("{name}: {:?}", expected.certainty()))
+        let of = &resolved.species.model;
+        if !is_foretold(of) {
+            assert!(resolved.model.expectation(until).is_none(), "{name} has a forecast, which is to be tested");
+            return Vec::new();
+        }
+        let model = of.compile(until).unwrap_or_else(|faults| panic!("{name}: {faults:?}"));
+        let expected = model.expectation(until).unwrap_or_else(|| panic!("{name} has no forecast"));
+        let drawn = DRAWN.into_iter().find_map(|(drawn, certainty)| (drawn == *name).then_some(certainty));
+        let known = drawn.or(is_bounded(of).then_some(Certainty::Bound)).unwrap_or(Certainty::Exact);
+        let mut differences = differences_of(name, of, model.as_ref(), until, &expected);
+        if expected.certainty() != known {
+            differences.push(format!("{name}: {:?}, and {known:?} is known", expected.certainty()));
+        }
+        differences
     });
-    assert_eq!(told.collect::<Vec<_>>(), Vec::<String>::new());
+    let differences: Vec<String> = species.collect();
+    assert!(differences.is_empty(), "{}", differences.join("\n"));
+}
+
+#[test]
+fn every_shipped_scenario_grows_as_foretold() {
+    let scenarios = presets(Kind::Scenario).into_par_iter().flat_map_iter(|(name, _)| {
+        let resolved = validate(name).unwrap_or_else(|report| panic!("{name}: {report}"));
+        if !is_foretold(&resolved.species.model) {
+            return Vec::new();
+        }
+        let (model, until) = (resolved.model.as_ref(), resolved.scenario.ages.until);
+        let expected = model.expectation(until).unwrap_or_else(|| panic!("{name} has no forecast"));
+        differences_of(name, &resolved.species.model, model, until, &expected)
+    });
+    let differences: Vec<String> = scenarios.collect();
+    assert!(differences.is_empty(), "{}", differences.join("\n"));
 }
 
 /// Flowers that open after the last age are no components: they are neither forecast nor counted against the limit.

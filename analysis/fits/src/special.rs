@@ -50,11 +50,15 @@ pub fn beta_below(a: f64, b: f64, x: f64) -> f64 {
     beta::beta_reg(a, b, x.clamp(0.0, 1.0))
 }
 
-/// The number that a share `p` of the beta distribution of `a` and `b` is below: bisection of [`beta_below`].
+/// The number that a share `p` of the beta distribution of `a` and `b` is below: bisection of [`beta_below`], to the
+/// last bit or to 2⁻¹²⁰.
 pub fn beta_quantile(a: f64, b: f64, p: f64) -> f64 {
     let (mut low, mut high) = (0.0, 1.0);
     for _ in 0..120 {
         let middle = 0.5 * (low + high);
+        if middle == low || middle == high {
+            return middle;
+        }
         if beta_below(a, b, middle) < p { low = middle } else { high = middle }
     }
     0.5 * (low + high)
