@@ -12,8 +12,8 @@ use phytomer_sim::site::stems::{Spared, Stems};
 /// What an internode asks beyond its length and its radius, and more than rounding adds, metres.
 const BEYOND: f64 = 3.0 * CLEARANCE;
 
-/// The longest way of a growth unit beyond its first internode for which stems are asked once for all its nodes, metres:
-/// about a longer one there are more stems than its nodes ask in turn.
+/// The longest way of a growth unit beyond its first internode for which stems are asked once for all its nodes,
+/// metres: about a longer one there are more stems than its nodes ask in turn.
 const FURTHEST: f64 = 0.02;
 
 /// Where an axis stood at the end of the last tick.
