@@ -191,7 +191,12 @@ fn obstacles(_: &mut Criterion) {
     };
     for (name, met) in cases() {
         let among = stand(&met);
-        let before = || _ = plots.replace([among.clone(), open.clone()]);
+        // A plot that grows owns its stems; one that is copied would copy them again as it follows them.
+        let before = || {
+            let mut both = [among.clone(), open.clone()];
+            both.iter_mut().filter_map(|plot| plot.site.stems.as_mut()).for_each(|stems| _ = Arc::make_mut(stems));
+            plots.replace(both);
+        };
         let name =
             format!("obstacles: tick {until} of {trees} poplars in light, {name}, over the open (aim: 1 / .75 = 1.33)");
         by_turns(&name, pairs, before, || tick(0), || tick(1));

@@ -35,6 +35,8 @@ pub(super) struct Around<'a> {
     free: f64,
     /// The length that the axis has grown in this tick while its end was not known, metres.
     grown: f64,
+    /// How far about the bud stems are asked beyond what one internode asks, metres.
+    further: f64,
     /// The direction out of the surface that the bud feels at this step.
     felt: Option<[f64; 3]>,
     /// Whether there was no way for a node of this step.
@@ -80,8 +82,10 @@ impl<'a> Around<'a> {
         let stems = site.stems.as_deref().filter(|stems| !stems.is_empty());
         let (place, posed, grown) = (plant.place, (start.node, start.tip), start.grown);
         let spared = Spared { plant: plant.id, axis: axis.0 };
-        let (beside, ahead, free, felt, stuck) = (Beside::default(), None, 0.0, None, false);
-        let mut around = Self { solids, stems, beside, spared, laws, place, posed, ahead, free, grown, felt, stuck };
+        let (beside, ahead, free, further) = (Beside::default(), None, 0.0, start.further);
+        let (felt, stuck) = (None, false);
+        let mut around =
+            Self { solids, stems, beside, spared, laws, place, posed, ahead, free, grown, further, felt, stuck };
         around.free = if solids.is_empty() { f64::INFINITY } else { around.free_about(posed.1, 0.0) - grown };
         around
     }
@@ -139,8 +143,16 @@ impl<'a> Around<'a> {
         let looks = self.felt.is_some() || self.laws.answer == Answer::Fasten;
         match looks {
             true => !self.beside.look(stems, tip, reach, self.spared),
-            false => !self.beside.glance(stems, tip, [reach, CLEARANCE], self.spared),
+            false => !self.beside.glance(stems, tip, [reach, CLEARANCE, self.further], self.spared),
         }
+    }
+
+    /// Whether the next internode is known to lie as it wants, without its way: there is nothing but stems, the bud has
+    /// felt none and holds to none, and the internode comes too near to none.
+    fn passes_all_stems(&self, [from, wanted]: [[f64; 3]; 2], next: &Next) -> bool {
+        let alone = self.solids.is_empty() && self.felt.is_none() && self.laws.answer != Answer::Fasten;
+        let end = [0, 1, 2].map(|k| from[k] + wanted[k] * next.length);
+        alone && self.beside.touched([from, end], CLEARANCE + next.radius, next.left).is_none()
     }
 
     /// The distance at which a climber holds; 0 of other plants.
@@ -206,6 +218,10 @@ impl<'a> Around<'a> {
         ahead.tend(plant, axis, trend);
         let [wanted, up] = ahead.directions();
         let from = self.tip();
+        if self.passes_all_stems([from, wanted], &next) {
+            self.end(plant).grow(length);
+            return Some(Lie::Free);
+        }
         let turned = self.felt.filter(|_| matches!(self.laws.answer, Answer::Deflect | Answer::Fasten));
         let heading = turned.and_then(|outward| along_surface(wanted, outward)).unwrap_or(wanted);
         let step = Step { from, heading, up, length, radius, hold: self.hold(from, radius), left, stems: &self.beside };

@@ -12,6 +12,10 @@ use phytomer_sim::site::stems::{Spared, Stems};
 /// What an internode asks beyond its length and its radius, and more than rounding adds, metres.
 const BEYOND: f64 = 3.0 * CLEARANCE;
 
+/// The longest way of a growth unit beyond its first internode for which stems are asked once for all its nodes,
+/// metres: about a longer one there are more stems than its nodes ask in turn.
+const FURTHEST: f64 = 0.02;
+
 /// Where an axis stood at the end of the last tick.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Start {
@@ -21,6 +25,8 @@ pub(super) struct Start {
     pub tip: [f64; 3],
     /// What it has grown since at most, metres.
     pub grown: f64,
+    /// How far its growth unit may go on beyond its first internode, metres; 0 of a long one.
+    pub further: f64,
 }
 
 impl Start {
@@ -28,7 +34,7 @@ impl Start {
     pub fn of(plant: &Plant, axis: AxisId) -> Self {
         let base = bud_base(plant, axis);
         let tip = [0, 1, 2].map(|k| plant.place[k] + f64::from(base[k]));
-        Self { node: plant.axes.last_node[axis.index()].some(), tip, grown: 0.0 }
+        Self { node: plant.axes.last_node[axis.index()].some(), tip, grown: 0.0, further: 0.0 }
     }
 
     /// Whether no internode of a growth unit of so many nodes comes near a stem; then it has grown by them.
@@ -38,6 +44,8 @@ impl Start {
         if is_free {
             self.grown = grown;
         }
+        let further = reach.length(short, nodes) - reach.length(short, 1);
+        self.further = if further <= FURTHEST { further } else { 0.0 };
         is_free
     }
 }

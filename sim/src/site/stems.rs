@@ -4,8 +4,8 @@
 //! They are the internodes as they stood at the end of the last tick, so no order of plants and no number of threads
 //! shows: each a straight piece of wood whose radius goes evenly from its base to its tip. From tick to tick they are
 //! kept, plant by plant, with a box about them. A bud asks the plants alone whose boxes are near. Of a plant that is
-//! asked, what has come, moved, grown much thicker or fallen is entered anew in the cells of space that its stems pass
-//! through (`cells`); so a bud far from all wood asks a cell or two. Buds that look around, as climbers do, ask trees.
+//! asked, what has come, moved, grown much thicker or fallen is entered anew in the cells of space in which its stems
+//! lie (`cells`); so a bud far from all wood asks a few bits. Buds that look around, as climbers do, ask trees.
 //! What is near a bud is copied from here ([`Beside`]). Absent: leaves, flowers and fruits, which no shoot meets.
 
 mod beside;
@@ -31,8 +31,8 @@ use stem::{ROUNDING, Stem};
 const FEWEST_PLANTS: usize = 16;
 /// How far from the box about a plant the plants are known that are beside it, metres along each axis.
 const ASIDE: f64 = 0.5;
-/// The reach up to which cells are asked whether all stems are far, metres: a ball of so few cells.
-const SHORT: f64 = 0.1;
+/// The reach up to which cells are asked whether all stems are far, metres: a ball of few cells.
+const SHORT: f64 = 0.25;
 
 /// Whose stems shoots meet.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
@@ -127,31 +127,36 @@ impl Stems {
         self.whose == Whose::Nobody || self.plants.iter().all(|plant| plant.standing == 0)
     }
 
-    /// Shows each stem that may be met and is nearer than `reach` to a point, in the order of the numbers of
-    /// plants and of nodes.
-    fn each_near(&self, point: Point, reach: f64, spared: Spared, show: &mut impl FnMut(&OfPlant, &Stem)) {
-        let mut near = Vec::new();
+    /// Notes each stem that may be met and is nearer than `reach` to a point, in the order of the numbers of plants and
+    /// of nodes.
+    fn gather(&self, point: Point, reach: f64, spared: Spared, near: &mut Vec<Which>) {
+        near.clear();
         self.each_plant_near(point, reach, spared, &mut |plant| {
             let of = &self.plants[plant as usize];
-            let (at, cells) = ([0, 1, 2].map(|k| point[k] - of.place[k]), of.cells());
-            let asked = |node: u32| {
+            let (at, cells) = (of.from_seed(point), of.cells());
+            let mut asked = |node: u32| {
                 let stem = &of.stems[node as usize];
                 if self.is_met(of, stem, spared) && stem.is_near(at, reach) {
                     near.push(Which { plant, node });
                 }
+                false
             };
             match cells.about(at, reach) {
                 Some(range) => cells.each_in(&range, asked),
-                None => of.each().for_each(asked),
+                None => of.each().for_each(|node| _ = asked(node)),
             }
         });
         // By the numbers of plants, so that their order in the plot does not show where two are equally near.
-        near.sort_unstable_by_key(|which| (self.plants[which.plant as usize].number, *which));
-        near.dedup();
-        for Which { plant, node } in near {
-            let plant = &self.plants[plant as usize];
-            show(plant, &plant.stems[node as usize]);
+        if near.len() > 1 {
+            near.sort_unstable_by_key(|which| (self.plants[which.plant as usize].number, *which));
+            near.dedup();
         }
+    }
+
+    /// A stem, with its plant.
+    fn get(&self, Which { plant, node }: Which) -> (&OfPlant, &Stem) {
+        let plant = &self.plants[plant as usize];
+        (plant, &plant.stems[node as usize])
     }
 
     /// Whether it is soon known that no stem which may be met is nearer than `reach` to a point: no box about a plant
@@ -210,7 +215,7 @@ impl Stems {
         })
     }
 
-    /// As [`Stems::each_near`], in the order of trees over plants and over pieces of their axes: that in which climbers
+    /// As [`Stems::gather`], in the order of trees over plants and over pieces of their axes: that in which climbers
     /// have always found what they hold to, where two stems are equally near.
     fn each_around(&self, point: Point, reach: f64, spared: Spared, show: &mut impl FnMut(&OfPlant, &Stem)) {
         let far = |bounds: &Bounds, point: Point| bounds.square_distance(point) >= reach * reach;

@@ -4,9 +4,9 @@
 //! within, and siblings leave one node, without any exception for them. Distances are those of the bark from the middle
 //! line of the new internode, in metres, negative within the wood.
 
-use super::Stems;
 use super::segments::Segment;
 use super::stem::{Near, length};
+use super::{Stems, Which};
 use crate::shape::Point;
 use crate::site::solids::{Cone, along};
 use crate::vector::Vector;
@@ -34,6 +34,10 @@ pub struct Beside {
     reach: f64,
     /// Whether it knows them.
     known: bool,
+    /// All stems of a ball, of which those beside the bud are found as the shoot grows through it.
+    about: Vec<Which>,
+    /// This ball.
+    asked: (Point, f64),
 }
 
 /// Where an internode comes too near to a stem.
@@ -57,7 +61,14 @@ impl Near {
 
 impl Beside {
     /// No stems at all.
-    pub const NONE: &'static Self = &Self { stems: Vec::new(), middle: [0.0; 3], reach: 0.0, known: true };
+    pub const NONE: &'static Self = &Self {
+        stems: Vec::new(),
+        middle: [0.0; 3],
+        reach: 0.0,
+        known: true,
+        about: Vec::new(),
+        asked: ([0.0; 3], 0.0),
+    };
 
     /// Whether no stem is known.
     pub fn is_none(&self) -> bool {
@@ -88,25 +99,42 @@ impl Beside {
     }
 
     /// Makes sure that the stems are known that are nearer than `reach` and `more` to a point, of those that
-    /// [`Beside::look`] makes known. Whether there are any; most buds have none so near, which is soon found.
-    pub fn glance(&mut self, all: &Stems, point: Point, [reach, more]: [f64; 2], spared: Spared) -> bool {
+    /// [`Beside::look`] makes known. Whether there are any; most buds have none so near, which is soon found. The shoot
+    /// is to grow on by about `further`: so far about it stems are asked once.
+    pub fn glance(&mut self, all: &Stems, point: Point, [reach, more, further]: [f64; 3], spared: Spared) -> bool {
         self.move_to(point, reach);
         let (at, reach) = (Vector::of(point), reach + more);
         if !self.known {
             let ball = (self.middle, self.reach);
-            self.stems.clear();
-            all.each_near(point, reach + ROUNDING, spared, &mut |plant, stem| {
-                if stem.is_near([0, 1, 2].map(|k| ball.0[k] - plant.place[k]), ball.1) {
-                    self.stems.push(Near::of(stem, plant.place, plant.number));
+            self.ask(all, point, [reach + ROUNDING, further], spared);
+            let Self { stems, about, .. } = self;
+            stems.clear();
+            for (plant, stem) in about.iter().map(|which| all.get(*which)) {
+                let is_near = |(point, reach): (Point, f64)| stem.is_near(plant.from_seed(point), reach);
+                if is_near((point, reach + ROUNDING)) && is_near(ball) {
+                    stems.push(Near::of(stem, plant.place, plant.number));
                 }
-            });
+            }
         }
         self.stems.iter().any(|stem| stem.distance(at) < reach)
+    }
+
+    /// Makes sure that all stems nearer than `reach` to a point are among those that were asked; if they must be asked,
+    /// then `further` about it.
+    fn ask(&mut self, all: &Stems, point: Point, [reach, further]: [f64; 2], spared: Spared) {
+        let moved = length(Vector::of(point) - Vector::of(self.asked.0));
+        if self.asked.1 == 0.0 || moved + reach + ROUNDING > self.asked.1 {
+            self.asked = (point, reach + ROUNDING + further.max(0.0));
+            all.gather(point, self.asked.1, spared, &mut self.about);
+        }
     }
 
     /// Where the internode from one point to another comes nearer to a stem than `room` and than it began, by the most;
     /// `None` where it does not. `left` tells the side of a stem that it meets in its middle.
     pub fn touched(&self, [from, end]: [Point; 2], room: f64, left: bool) -> Option<Touch> {
+        if self.stems.is_empty() {
+            return None;
+        }
         let start = Vector::of(from);
         let way = Segment { start, along: Vector::of(end) - start };
         let mut most: Option<(f64, usize, [f64; 2])> = None;

@@ -1,9 +1,11 @@
-//! The cells of space through which the stems of a plant pass, so that a bud asks those beside it alone.
+//! The cells of space in which the stems of a plant lie, so that a bud asks those beside it alone.
 //!
 //! Cells are cubes of one edge, twice as long as the stems are on average; they stand in bricks of 8 × 8 × 8 that
-//! are made where stems come, so memory follows the wood. A stem is entered once in each cell that the box about a part
-//! of it touches, with the radius that it was entered for, and stays there from tick to tick as long as it stands where
-//! it stood. Found are all that may be near, some of them more than once and in no order that means anything. Places
+//! are made where stems come, so memory follows the wood. A stem is entered in the cell of its middle, with the radius
+//! that it was entered for, and stays there from tick to tick as long as it stands where it stood; who asks looks as
+//! much farther as the widest of them reaches. One that is wider than a cell is entered once in each cell that the box
+//! about a part of it touches. Bits tell which cells of a brick hold anything, so that most of a box of cells is passed
+//! over by 64. Found are all that may be near, some of them more than once and in no order that means anything. Places
 //! are metres from the seed. Absent: the stems themselves.
 
 use super::Stem;
@@ -11,12 +13,16 @@ use crate::shape::Point;
 
 /// The cells along an edge of a brick, as a power of 2.
 const BITS: u32 = 3;
+/// The last cell along an edge of a brick.
+const LAST: i32 = (1 << BITS) - 1;
 /// The cells of a brick.
 const CELLS: usize = 1 << (3 * BITS);
 /// The farthest cell along each axis.
 const FARTHEST: f64 = (1 << 20) as f64;
-/// The most cells that a stem is entered in, or that a bud asks: beyond it all stems are asked.
+/// The most cells that a stem is entered in; those that pass through more are always asked.
 const MOST_CELLS: i64 = 4_096;
+/// The most cells that a bud asks: beyond it all stems are asked.
+const MOST_ASKED: i64 = 32_768;
 /// The least and the largest edge of cells, metres.
 const SHORTEST: f64 = 0.01;
 const LONGEST: f64 = 100.0;
@@ -33,9 +39,13 @@ pub(super) type Range = [[i32; 3]; 2];
 pub(super) struct Cells {
     /// The edge of a cell, metres; 0 before any stem is known.
     edge: f64,
+    /// How far a stem reaches beyond its middle along an axis, of those that are entered by it, metres.
+    widest: f64,
     /// The bricks by their places, in a table of open addresses.
     table: Vec<u32>,
     bricks: Vec<[i32; 3]>,
+    /// Which cells of each brick hold anything, a bit each; a number for each layer of 8 × 8.
+    full: Vec<[u64; 1 << BITS]>,
     /// The first entry of each cell, brick by brick.
     first: Vec<u32>,
     entries: Vec<Entry>,
@@ -51,6 +61,17 @@ struct Entry {
     next: u32,
 }
 
+/// Where a stem is entered.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Place {
+    /// In the cell of its middle.
+    Middle([i32; 3]),
+    /// In the cells of each of so many parts.
+    Parts(u32),
+    /// Among those that pass through too many cells.
+    Long,
+}
+
 impl Cells {
     /// Empty cells for stems that are so long on average, metres.
     pub fn of(length: f64) -> Self {
@@ -63,97 +84,160 @@ impl Cells {
         (0.5 * self.edge..=2.0 * self.edge).contains(&(2.0 * length).clamp(SHORTEST, LONGEST))
     }
 
-    /// The cells of the box about a ball; `None` where they are too many to be asked.
+    /// The cells to be asked about a ball; `None` where they are too many.
     pub fn about(&self, point: Point, reach: f64) -> Option<Range> {
+        let reach = reach + self.widest;
         let range = range_of(self.edge, [point.map(|x| x - reach), point.map(|x| x + reach)]);
-        (count(&range) <= MOST_CELLS).then_some(range)
+        (count(&range) <= MOST_ASKED).then_some(range)
     }
 
-    /// The cells of each part of a stem; `None` where they are too many.
-    fn parts(&self, stem: &Stem) -> Option<impl Iterator<Item = Range> + use<>> {
+    /// Where a stem is entered.
+    fn place_of(&self, stem: &Stem) -> Place {
+        let wide = wide(stem);
+        if wide <= 0.5 * self.edge {
+            let middle = [0, 1, 2].map(|k| 0.5 * (f64::from(stem.start[k]) + f64::from(stem.end[k])));
+            return Place::Middle(middle.map(|x| cell_of(self.edge, x)));
+        }
+        let longest = 2.0 * (wide - f64::from(stem.entered));
+        let parts = (longest / self.edge).ceil().max(1.0);
+        let across = 2.0 * f64::from(stem.entered) / self.edge + 3.0;
+        if !parts.is_finite() || parts * (across * across * across) > MOST_CELLS as f64 {
+            return Place::Long;
+        }
+        Place::Parts(parts as u32)
+    }
+
+    /// The cells of each part of a stem.
+    fn parts(&self, stem: &Stem, parts: u32) -> impl Iterator<Item = Range> + use<> {
         let [start, end] = [stem.start, stem.end].map(|end| end.map(f64::from));
         let margin = f64::from(stem.entered);
         let along = [0, 1, 2].map(|k| end[k] - start[k]);
-        let longest = along.iter().fold(0.0_f64, |longest, x| longest.max(x.abs()));
-        let parts = (longest / self.edge).ceil().max(1.0);
-        let across = 2.0 * margin / self.edge + 3.0;
-        if !parts.is_finite() || parts * (across * across * across) > MOST_CELLS as f64 {
-            return None;
-        }
         let edge = self.edge;
-        Some((0..parts as u32).map(move |part| {
+        (0..parts).map(move |part| {
             let at = |share: f64| [0, 1, 2].map(|k| start[k] + along[k] * share);
-            let [from, to] = [at(f64::from(part) / parts), at(f64::from(part + 1) / parts)];
+            let [from, to] = [part, part + 1].map(|part| at(f64::from(part) / f64::from(parts)));
             let low = [0, 1, 2].map(|k| from[k].min(to[k]) - margin);
             range_of(edge, [low, [0, 1, 2].map(|k| from[k].max(to[k]) + margin)])
-        }))
+        })
     }
 
-    /// Whether two stems are entered in the same cells.
+    /// Whether a stem may stay where another one was entered.
     pub fn same(&self, one: &Stem, other: &Stem) -> bool {
-        match (self.parts(one), self.parts(other)) {
-            (Some(one), Some(other)) => one.eq(other),
-            (one, other) => one.is_none() && other.is_none(),
+        match (self.place_of(one), self.place_of(other)) {
+            (Place::Middle(one), Place::Middle(at)) => one == at && wide(other) <= self.widest,
+            (Place::Parts(few), Place::Parts(many)) => self.parts(one, few).eq(self.parts(other, many)),
+            (one, other) => one == other,
         }
     }
 
     /// Enters a stem.
     pub fn enter(&mut self, node: u32, stem: &Stem) {
-        let Some(parts) = self.parts(stem) else { return self.long.push(node) };
-        for range in parts {
-            each_cell(&range, |cell| {
-                let slot = self.make(cell);
-                let first = self.first[slot];
-                // The part before may have been entered here.
-                if first == NONE || self.entries[first as usize].node != node {
-                    self.first[slot] = self.entry(Entry { node, next: first });
+        match self.place_of(stem) {
+            Place::Middle(cell) => {
+                self.widest = self.widest.max(wide(stem));
+                self.enter_in(cell, node);
+            }
+            Place::Parts(parts) => {
+                for range in self.parts(stem, parts) {
+                    each_cell(&range, |cell| self.enter_in(cell, node));
                 }
-            });
+            }
+            Place::Long => self.long.push(node),
+        }
+    }
+
+    fn enter_in(&mut self, cell: [i32; 3], node: u32) {
+        let (brick, inner) = (self.make(cell), inner(cell));
+        let slot = brick * CELLS + inner;
+        let next = self.first[slot];
+        // The part before may have been entered here.
+        if next == NONE || self.entries[next as usize].node != node {
+            self.first[slot] = self.entry(Entry { node, next });
+            self.full[brick][inner >> (2 * BITS)] |= 1 << (inner & 63);
         }
     }
 
     /// Takes a stem out again, as it was entered.
     pub fn remove(&mut self, node: u32, stem: &Stem) {
-        let Some(parts) = self.parts(stem) else { return self.long.retain(|long| *long != node) };
-        for range in parts {
-            each_cell(&range, |cell| {
-                let Some(slot) = self.slot(cell) else { return };
-                let (mut before, mut entry) = (NONE, self.first[slot]);
-                while entry != NONE {
-                    let Entry { node: found, next } = self.entries[entry as usize];
-                    if found == node {
-                        match before {
-                            NONE => self.first[slot] = next,
-                            before => self.entries[before as usize].next = next,
-                        }
-                        self.entries[entry as usize].next = self.free;
-                        self.free = entry;
-                        return;
-                    }
-                    (before, entry) = (entry, next);
+        match self.place_of(stem) {
+            Place::Middle(cell) => self.remove_from(cell, node),
+            Place::Parts(parts) => {
+                for range in self.parts(stem, parts) {
+                    each_cell(&range, |cell| self.remove_from(cell, node));
                 }
-            });
+            }
+            Place::Long => self.long.retain(|long| *long != node),
         }
     }
 
-    /// Shows the stems of a box of cells.
-    pub fn each_in(&self, range: &Range, mut show: impl FnMut(u32)) {
-        let mut brick = (NONE, [i32::MIN; 3]);
-        each_cell(range, |cell| {
-            let place = cell.map(|x| x >> BITS);
-            if brick.1 != place {
-                brick = (self.brick(place), place);
+    fn remove_from(&mut self, cell: [i32; 3], node: u32) {
+        let brick = self.brick(cell.map(|x| x >> BITS));
+        if brick == NONE {
+            return;
+        }
+        let (brick, inner) = (brick as usize, inner(cell));
+        let slot = brick * CELLS + inner;
+        let (mut before, mut entry) = (NONE, self.first[slot]);
+        while entry != NONE {
+            let Entry { node: found, next } = self.entries[entry as usize];
+            if found == node {
+                match before {
+                    NONE => self.first[slot] = next,
+                    before => self.entries[before as usize].next = next,
+                }
+                self.entries[entry as usize].next = self.free;
+                self.free = entry;
+                break;
             }
-            if brick.0 == NONE {
+            (before, entry) = (entry, next);
+        }
+        if self.first[slot] == NONE {
+            self.full[brick][inner >> (2 * BITS)] &= !(1 << (inner & 63));
+        }
+    }
+
+    /// Shows the stems of a box of cells, until one of them is enough.
+    pub fn each_in(&self, [low, high]: &Range, mut is_enough: impl FnMut(u32) -> bool) {
+        for long in &self.long {
+            if is_enough(*long) {
                 return;
             }
-            let mut entry = self.first[brick.0 as usize * CELLS + inner(cell)];
-            while let Some(Entry { node, next }) = self.entries.get(entry as usize) {
-                show(*node);
-                entry = *next;
+        }
+        let [first, last] = [low, high].map(|corner| corner.map(|x| x >> BITS));
+        for z in first[2]..=last[2] {
+            for y in first[1]..=last[1] {
+                for x in first[0]..=last[0] {
+                    let place = [x, y, z];
+                    let brick = self.brick(place);
+                    if brick != NONE && self.each_in_brick(brick as usize, within(place, low, high), &mut is_enough) {
+                        return;
+                    }
+                }
             }
-        });
-        self.long.iter().for_each(|node| show(*node));
+        }
+    }
+
+    /// Shows the stems of a box of cells within a brick; whether one of them was enough.
+    fn each_in_brick(&self, brick: usize, [low, high]: Range, is_enough: &mut impl FnMut(u32) -> bool) -> bool {
+        // A byte is a row along x.
+        let row = (0xff_u64 << low[0]) & (0xff >> (LAST - high[0]));
+        let rows = (u64::MAX << (8 * low[1])) & (u64::MAX >> (8 * (LAST - high[1])));
+        let layer = row.wrapping_mul(0x0101_0101_0101_0101) & rows;
+        for z in low[2]..=high[2] {
+            let mut full = self.full[brick][z as usize] & layer;
+            while full != 0 {
+                let cell = ((z as usize) << (2 * BITS)) | full.trailing_zeros() as usize;
+                full &= full - 1;
+                let mut entry = self.first[brick * CELLS + cell];
+                while let Some(Entry { node, next }) = self.entries.get(entry as usize) {
+                    if is_enough(*node) {
+                        return true;
+                    }
+                    entry = *next;
+                }
+            }
+        }
+        false
     }
 
     fn entry(&mut self, entry: Entry) -> u32 {
@@ -165,11 +249,6 @@ impl Cells {
         self.free = self.entries[place as usize].next;
         self.entries[place as usize] = entry;
         place
-    }
-
-    fn slot(&self, cell: [i32; 3]) -> Option<usize> {
-        let brick = self.brick(cell.map(|x| x >> BITS));
-        (brick != NONE).then(|| brick as usize * CELLS + inner(cell))
     }
 
     fn brick(&self, place: [i32; 3]) -> u32 {
@@ -187,13 +266,16 @@ impl Cells {
         slot
     }
 
-    /// The place of a cell, whose brick is made if need be.
+    /// The brick of a cell, which is made if need be.
     fn make(&mut self, cell: [i32; 3]) -> usize {
-        if let Some(slot) = self.slot(cell) {
-            return slot;
+        let place = cell.map(|x| x >> BITS);
+        let known = self.brick(place);
+        if known != NONE {
+            return known as usize;
         }
         let brick = self.bricks.len() as u32;
-        self.bricks.push(cell.map(|x| x >> BITS));
+        self.bricks.push(place);
+        self.full.push([0; 1 << BITS]);
         self.first.resize(self.first.len() + CELLS, NONE);
         if self.bricks.len() * 2 > self.table.len() {
             self.table = vec![NONE; self.table.len() * 4];
@@ -201,7 +283,7 @@ impl Cells {
         } else {
             self.place_in_table(brick);
         }
-        brick as usize * CELLS + inner(cell)
+        brick as usize
     }
 
     fn place_in_table(&mut self, brick: u32) {
@@ -210,20 +292,34 @@ impl Cells {
     }
 }
 
+/// How far a stem reaches from its middle along an axis of space, as it is entered, metres.
+fn wide(stem: &Stem) -> f64 {
+    let longest = (0..3).map(|k| (f64::from(stem.end[k]) - f64::from(stem.start[k])).abs()).fold(0.0, f64::max);
+    0.5 * longest + f64::from(stem.entered)
+}
+
+/// The part of a box of cells that lies in a brick, counted from its first cell.
+fn within(brick: [i32; 3], low: &[i32; 3], high: &[i32; 3]) -> Range {
+    let inner = |k: usize, cell: i32| (cell - (brick[k] << BITS)).clamp(0, LAST);
+    [[inner(0, low[0]), inner(1, low[1]), inner(2, low[2])], [inner(0, high[0]), inner(1, high[1]), inner(2, high[2])]]
+}
+
+/// The cell of a place along an axis.
+fn cell_of(edge: f64, at: f64) -> i32 {
+    let at = (at / edge).clamp(-FARTHEST, FARTHEST);
+    // Rounded down, without the call that `floor` is on machines that have no instruction for it.
+    let whole = at as i32;
+    whole - i32::from(at < f64::from(whole))
+}
+
 /// The cells that a box touches.
 fn range_of(edge: f64, [low, high]: [Point; 2]) -> Range {
-    let cell = |at: f64| {
-        let at = (at / edge).clamp(-FARTHEST, FARTHEST);
-        // Rounded down, without the call that `floor` is on machines that have no instruction for it.
-        let whole = at as i32;
-        whole - i32::from(at < f64::from(whole))
-    };
-    [low.map(|x| cell(x - ROUNDING)), high.map(|x| cell(x + ROUNDING))]
+    [low.map(|x| cell_of(edge, x - ROUNDING)), high.map(|x| cell_of(edge, x + ROUNDING))]
 }
 
 /// The place of a cell in its brick.
 fn inner([x, y, z]: [i32; 3]) -> usize {
-    let inner = |x: i32| (x & ((1 << BITS) - 1)) as usize;
+    let inner = |x: i32| (x & LAST) as usize;
     (inner(z) << (2 * BITS)) | (inner(y) << BITS) | inner(x)
 }
 

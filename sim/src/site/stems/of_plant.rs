@@ -1,6 +1,6 @@
 //! The stems of one plant, kept from tick to tick: what has come, moved, grown much thicker or fallen since.
 //!
-//! The cells through which they pass are made when a bud first asks, and from then on what has changed is entered anew.
+//! The cells in which they lie are made when a bud first asks, and from then on what has changed is entered anew.
 //! Absent: the cells (`cells`), and which plants a bud asks (`super`).
 
 use super::cells::Cells;
@@ -15,7 +15,7 @@ use std::sync::OnceLock;
 const PIECE: usize = 8;
 /// What a stem may grow thicker before it is entered anew: a share of its radius, and metres.
 const ROOM: f32 = 1.5;
-const LEAST_ROOM: f32 = 4e-3;
+const LEAST_ROOM: f32 = 1e-3;
 
 /// The stems of one plant, metres from its seed.
 #[derive(Debug, Clone, Default)]
@@ -130,7 +130,7 @@ impl OfPlant {
         self.length / self.standing.max(1) as f64
     }
 
-    /// The cells through which the stems pass.
+    /// The cells in which the stems lie.
     pub(super) fn cells(&self) -> &Cells {
         self.cells.get_or_init(|| {
             let mut cells = Cells::of(self.mean_length());
@@ -139,14 +139,20 @@ impl OfPlant {
         })
     }
 
+    /// A point of the plot, metres from the seed.
+    pub(super) fn from_seed(&self, [x, y, z]: Point) -> Point {
+        [x - self.place[0], y - self.place[1], z - self.place[2]]
+    }
+
     /// Whether no stem that counts is nearer than `reach` to a point of the plot, as far as few cells tell.
     pub(super) fn is_far(&self, point: Point, reach: f64, counts: impl Fn(&Self, &Stem) -> bool) -> bool {
-        let (at, cells) = ([0, 1, 2].map(|k| point[k] - self.place[k]), self.cells());
+        let (at, cells) = (self.from_seed(point), self.cells());
         let Some(range) = cells.about(at, reach) else { return false };
         let mut far = true;
         cells.each_in(&range, |node| {
             let stem = &self.stems[node as usize];
-            far = far && !(counts(self, stem) && stem.is_near(at, reach));
+            far = !(counts(self, stem) && stem.is_near(at, reach));
+            !far
         });
         far
     }

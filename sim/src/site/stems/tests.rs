@@ -88,8 +88,8 @@ fn stems_that_change_are_found_where_they_are() {
             let reach = f64::from(stem(0, 0.0, 0.0).start[1]) * 0.1;
             let near = |stems: &Stems| {
                 let mut near = Vec::new();
-                stems.each_near(point, reach, Spared::default(), &mut |_, stem| near.push(stem.axis));
-                near
+                stems.gather(point, reach, Spared::default(), &mut near);
+                near.iter().map(|which| stems.get(*which).1.axis).collect::<Vec<_>>()
             };
             let at = [0, 1, 2].map(|k| point[k] - place[k]);
             let standing = now.iter().filter(|stem| stem.entered >= 0.0);
@@ -133,7 +133,9 @@ fn what_is_near_is_what_asking_each_stem_finds() {
                 by_tree += 1
             }
             let mut near = Vec::new();
-            all.each_near(point, reach, spared, &mut |plant, stem| near.push((plant.number, stem.axis)));
+            all.gather(point, reach, spared, &mut near);
+            let known = |(plant, stem): (&OfPlant, &Stem)| (plant.number, stem.axis);
+            let mut near: Vec<(u32, u32)> = near.iter().map(|which| known(all.get(*which))).collect();
             near.sort_unstable();
             let mut around = Vec::new();
             all.each_around(point, reach, spared, &mut |plant, stem| around.push((plant.number, stem.axis)));
