@@ -177,7 +177,7 @@ impl CountTable {
     #[inline]
     pub fn sample(&self, word: u32, at: At) -> u32 {
         let mut count = 0;
-        self.sample_many(at, std::iter::once((word, &mut count)));
+        self.sample_many(self.distribution(&at), std::iter::once((word, &mut count)));
         count
     }
 
@@ -196,10 +196,16 @@ impl CountTable {
         }
     }
 
-    /// Many counts at one point, each with its own word into its own place. Each is that of [`Self::sample`].
+    /// The number of the distribution at a point: points with the same parameters have the same.
     #[inline]
-    pub fn sample_many<'a>(&self, at: At, draws: impl Iterator<Item = (u32, &'a mut u32)>) {
-        let number = self.cells[self.grid.cell(at)] as usize;
+    pub fn distribution(&self, at: &At) -> usize {
+        self.cells[self.grid.cell_at(at)] as usize
+    }
+
+    /// Many counts of a distribution by its number, each with its own word into its own place. Each is that of
+    /// [`Self::sample`].
+    #[inline]
+    pub fn sample_many<'a>(&self, number: usize, draws: impl Iterator<Item = (u32, &'a mut u32)>) {
         let Distribution { start, len, first, .. } = self.distributions[number];
         let thresholds = &self.thresholds[start as usize..(start + len) as usize];
         match self.guides.of(number) {

@@ -64,7 +64,7 @@ pub use steps::{HEIGHT_STEP, LIGHT_STEP, SHADE_STEPS, height_in_steps, shade_in_
 pub use table::{ProbabilityTable, Threshold, ValueTable, happens};
 pub use variable::{Asked, Variable};
 pub use variate::{Lognormal, Normal, Uniform, Variate, VariateForm};
-pub use variate_table::VariateTable;
+pub use variate_table::{Parameters, VariateTable};
 pub use varies::Varies;
 
 /// The most cells that one compiled law may have (64 MiB of thresholds).

@@ -45,7 +45,7 @@ fn compare(table: &CountTable, at: At, what: &str) -> usize {
     let (first, thresholds) = thresholds(table, at);
     let words: Vec<u32> = words(&thresholds).collect();
     let mut many = vec![u32::MAX; words.len()];
-    table.sample_many(at, words.iter().copied().zip(&mut many));
+    table.sample_many(table.distribution(&at), words.iter().copied().zip(&mut many));
     for (&word, together) in words.iter().zip(many) {
         let expected = first + thresholds.iter().filter(|threshold| **threshold <= u64::from(word)).count() as u32;
         let drawn = [table.sample(word, at), table.sample_at(word, &at), together];

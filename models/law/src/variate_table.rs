@@ -27,6 +27,18 @@ enum Kind {
     Empirical(Vec<f64>),
 }
 
+/// The parameters of a random variable at a point.
+#[derive(Clone, Copy, Debug)]
+pub struct Parameters([f64; 2]);
+
+impl PartialEq for Parameters {
+    /// Whether both are the same to the bit, so that draws are.
+    #[inline]
+    fn eq(&self, other: &Self) -> bool {
+        self.0.map(f64::to_bits) == other.0.map(f64::to_bits)
+    }
+}
+
 /// A real random variable, compiled.
 #[derive(Clone, Debug, PartialEq)]
 pub struct VariateTable {
@@ -212,15 +224,26 @@ impl VariateTable {
     #[inline]
     fn draw_in(&self, cell: usize, word: u32) -> f64 {
         let mut drawn = 0.0;
-        self.draw_each(cell, std::iter::once((word, &mut drawn)), |value| value);
+        self.draw_each(Parameters(self.cells[cell]), std::iter::once((word, &mut drawn)), |value| value);
         drawn
     }
 
-    /// Many draws at one point, each with its own word into its own place and finished by `finish`. Each is the draw of
-    /// [`Self::draw`].
+    /// The parameters at a point.
     #[inline]
-    pub fn draw_many<'a>(&self, at: At, draws: impl Iterator<Item = (u32, &'a mut f32)>, finish: impl Fn(f32) -> f32) {
-        self.draw_each(self.grid.cell(at), draws, |value| finish(value as f32));
+    pub fn parameters(&self, at: &At) -> Parameters {
+        Parameters(self.cells[self.grid.cell_at(at)])
+    }
+
+    /// Many draws with the same parameters, each with its own word into its own place and finished by `finish`. Each is
+    /// the draw of [`Self::draw`].
+    #[inline]
+    pub fn draw_many<'a>(
+        &self,
+        parameters: Parameters,
+        draws: impl Iterator<Item = (u32, &'a mut f32)>,
+        finish: impl Fn(f32) -> f32,
+    ) {
+        self.draw_each(parameters, draws, |value| finish(value as f32));
     }
 
     /// How often the parameters can change along the nodes of an axis.
@@ -228,15 +251,14 @@ impl VariateTable {
         self.grid.varies()
     }
 
-    /// Draws in a cell; the kind of the distribution is looked at once for all of them.
+    /// Draws with the same parameters; the kind of the distribution is looked at once for all of them.
     #[inline(always)]
     fn draw_each<'a, T: 'a>(
         &self,
-        cell: usize,
+        Parameters([a, b]): Parameters,
         draws: impl Iterator<Item = (u32, &'a mut T)>,
         finish: impl Fn(f64) -> T,
     ) {
-        let [a, b] = self.cells[cell];
         let finish = |value: f64| finish(self.clamp(value));
         match &self.kind {
             Kind::Value => draws.for_each(|(_, into)| *into = finish(a)),

@@ -12,7 +12,7 @@
 use super::around::{Around, Lie};
 use super::birth::at_birth;
 use super::bud::ApicalBud;
-use super::compile::{BudModel, OrderLaws, Passage};
+use super::compile::{BudModel, OrderLaws, Passage, StepTests};
 use super::params::ApexEnd;
 use super::record::Words;
 use super::start::Start;
@@ -22,8 +22,8 @@ use phytomer_sim::plant::{ApexFate, Event, EventKind, NodeId, Plant};
 use phytomer_sim::random::Purpose;
 use phytomer_sim::site::Site;
 
-/// The fewest nodes that a living axis plans: one that grows on by a tick or two, and can make no more of them, makes
-/// each as it comes. Axes that begin are many.
+/// The fewest nodes that a living axis plans alone: one that grows on by a tick or two makes each as it comes, unless
+/// others of its order do so beside it.
 const FEWEST: u32 = 8;
 
 /// One axis while it grows.
@@ -46,7 +46,7 @@ pub(super) struct Axis<'a> {
     /// Whether it meets something at this step: 1 or 0.
     pub contact: u32,
     /// What the bud lacks of full light, in the steps in which laws know it; 0 where none asks.
-    shade: u32,
+    pub shade: u32,
     pub speed: Speed,
     /// The growth units after which the apex ends.
     pub last_unit: u32,
@@ -58,6 +58,8 @@ pub(super) struct Axis<'a> {
     pub whole_death: Tick,
     /// Whether it plans its nodes and makes them at once.
     pub plans: bool,
+    /// The tests of its plain steps, once they have been looked up for buds that lack light, or for those that do not.
+    pub tests: Option<StepTests<'a>>,
 }
 
 /// The plant has no room left for a component that a bud would make.
@@ -92,6 +94,7 @@ impl<'a> Axis<'a> {
             birth: 0,
             whole_death: NEVER,
             plans: false,
+            tests: None,
         };
         let place = axis.bud.axis.index();
         (axis.leads, axis.birth) = (!axis.plant.axes.follows[place], axis.plant.axes.birth[place]);
@@ -110,7 +113,7 @@ impl<'a> Axis<'a> {
 
     /// Reads the quantities that the axis has drawn at its birth and that its growth needs. They are the same each
     /// time.
-    fn read_head(&mut self) {
+    pub(super) fn read_head(&mut self) {
         let laws = &self.laws.head;
         let axis = self.bud.axis.index();
         if laws.guides_growth && laws.width > 0 {
@@ -128,10 +131,11 @@ impl<'a> Axis<'a> {
     /// that grow next.
     pub fn grow(&mut self, age: Tick) -> Result<(), Full> {
         let last = age.min(self.whole_death.saturating_sub(1));
-        let fewest = if self.words.many_begin { 1 } else { FEWEST };
         let most_nodes = last.saturating_sub(self.bud.age).saturating_mul(self.laws.node.most_nodes);
+        let (joins, begun) = (self.joins_plan(), !self.words.plan.is_empty());
+        let fewest = if self.words.many_begin || self.words.many_alike || (joins && begun) { 1 } else { FEWEST };
         self.plans = most_nodes >= fewest && self.makes_columns();
-        if most_nodes > 0 && !(self.plans && self.joins_plan()) {
+        if most_nodes > 0 && !(self.plans && joins) {
             self.make_planned()?;
         }
         let in_all = self.speed.steps_by(last.saturating_sub(self.birth));

@@ -3,6 +3,7 @@
 //! [`Buds`] are the parameters as people state them, in the laws of [`crate::law`]; [`BudModel`] is the compiled
 //! species that grows. [`expectation`] gives the mean of what grows in closed form.
 
+mod alike;
 mod around;
 mod attack;
 mod birth;

@@ -73,7 +73,7 @@ impl BudModel {
     /// [`Overgrown`] where the plant comes to its limit.
     pub fn grow_axis(&self, plant: &mut Plant, bud: ApicalBud, age: Tick) -> Result<Option<ApicalBud>, Overgrown> {
         Words::lend(false, |words| {
-            self.grow_with((plant, None), bud, age, words)?;
+            self.grow_alike((plant, None), &[bud], age, words)?;
             self.make_last(plant, words)?;
             Ok(words.living.pop())
         })
@@ -93,22 +93,6 @@ impl BudModel {
             (0..=age).map(|own| laws.thickening.value(at(own)) * 0.001).collect()
         };
         classes.map(by_own_age).collect()
-    }
-
-    /// Grows one axis from `bud` to `age`. Its bud joins the living ones among `words`, whose last nodes may be left to
-    /// be made by [`Self::make_last`].
-    fn grow_with(
-        &self,
-        (plant, site): (&mut Plant, Option<&Site>),
-        bud: ApicalBud,
-        age: Tick,
-        words: &mut Words,
-    ) -> Result<(), Overgrown> {
-        let mut axis = Axis::new(self, plant, words, bud);
-        if site.is_some() {
-            axis.look_around(site);
-        }
-        axis.grow(age).map_err(|Full| Overgrown::of(plant))
     }
 
     /// Makes the nodes that axes have left to be made.
@@ -133,14 +117,11 @@ impl BudModel {
         Words::lend(false, |words| {
             for buds in living.chunks(READ_TOGETHER) {
                 let one_by_one = buds.first().is_some_and(|bud| age.saturating_sub(bud.age) == 1);
-                words.read_ahead((self, plant), buds.iter(), age, one_by_one);
-                for bud in buds {
-                    self.grow_with((plant, site), *bud, age, words)?;
-                }
+                words.read_ahead((self, plant), buds, age, one_by_one);
+                self.grow_all((plant, site), buds, age, words)?;
             }
             self.make_last(plant, words)?;
-            living.clear();
-            living.append(&mut words.living);
+            words.give_living(living);
             Ok(())
         })?;
         let mut next = first_new;
@@ -212,10 +193,8 @@ impl BudModel {
             for begin in waiting.clone().step_by(READ_TOGETHER) {
                 let axes = begin..waiting.end.min(begin + READ_TOGETHER);
                 let buds: Vec<_> = axes.map(|axis| first_bud(self, plant, AxisId(axis as u32))).collect();
-                words.read_ahead((self, plant), buds.iter(), age, false);
-                for bud in buds {
-                    self.grow_with((plant, None), bud, age, words)?;
-                }
+                words.read_ahead((self, plant), &buds, age, false);
+                self.grow_all((plant, None), &buds, age, words)?;
             }
             self.make_last(plant, words)?;
             Ok(words.living.drain(..).collect())

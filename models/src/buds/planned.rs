@@ -63,7 +63,7 @@ impl Axis<'_> {
         let plan = &self.words.plan;
         let (Some(shoot), Some(piece)) = (plan.shoots.last(), plan.pieces.last()) else { return true };
         let order = self.plant.axes.order[shoot.bud.axis.index()];
-        order == self.laws.number && (piece.at.shade > 0) == (self.at(0).shade > 0)
+        order == self.laws.number && (piece.at.shade > 0) == self.words.shaded
     }
 
     /// Makes the nodes that are planned, those of other axes too; at once where they are not few. The plant has no room

@@ -35,6 +35,8 @@ pub(super) struct Words {
     pub plan: Plan,
     /// Whether axes use them that begin, one after another.
     pub many_begin: bool,
+    /// Whether many axes of one order use them, one after another.
+    pub many_alike: bool,
     /// The buds that have grown to their age and live.
     pub living: Vec<ApicalBud>,
     /// The records of the nodes that are planned.
@@ -56,7 +58,7 @@ impl Words {
     /// Lends the words of this thread, with nothing planned; to axes that begin, one after another, where `many_begin`.
     pub fn lend<T>(many_begin: bool, work: impl FnOnce(&mut Self) -> T) -> T {
         let mut words = WORDS.take().unwrap_or_default();
-        words.many_begin = many_begin;
+        (words.many_begin, words.many_alike) = (many_begin, false);
         words.plan.clear();
         words.living.clear();
         words.ahead.clear();
@@ -79,6 +81,16 @@ impl Words {
         if self.end.len() < laws.end.width.max(1) {
             self.end.resize(laws.end.width.max(1), 0);
         }
+        self.trends.clear();
+        self.zones.clear();
+        self.take_ahead(laws);
+    }
+
+    /// Makes these the words of another axis of the same order.
+    #[inline]
+    pub fn of_next(&mut self, laws: &OrderLaws) {
+        (self.bud, self.node, self.step_response, self.node_response) = (None, None, None, None);
+        self.steps.of(laws);
         self.trends.clear();
         self.zones.clear();
         self.take_ahead(laws);
@@ -176,14 +188,19 @@ impl Words {
 
     /// Reads words of buds before they grow to `age`, one after another in this order: those of their next steps and,
     /// where they make their nodes `one_by_one`, of their next nodes.
-    pub fn read_ahead<'a>(
-        &mut self,
-        of: (&BudModel, &Plant),
-        buds: impl Iterator<Item = &'a ApicalBud>,
-        age: Tick,
-        one_by_one: bool,
-    ) {
+    pub fn read_ahead(&mut self, of: (&BudModel, &Plant), buds: &[ApicalBud], age: Tick, one_by_one: bool) {
         self.ahead.read(of, buds, age, one_by_one);
+    }
+
+    /// Makes `living` the buds that have grown to their age and live. Memory is exchanged where that is no waste: it is
+    /// lent to other plants.
+    pub fn give_living(&mut self, living: &mut Vec<ApicalBud>) {
+        living.clear();
+        if self.living.capacity() <= 2 * self.living.len() {
+            std::mem::swap(living, &mut self.living);
+        } else {
+            living.append(&mut self.living);
+        }
     }
 
     /// Takes the words that were read ahead for the bud which grows next, if any.

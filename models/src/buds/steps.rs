@@ -2,32 +2,19 @@
 //! most species.
 //!
 //! The steps are those of [`Axis::step`], test for test; here the laws that are the same at every point are looked up
-//! once an axis, and the point of the laws is written in one place until the axis is at its age. Absent: steps with
-//! several units, neoformed nodes, drawn zones, terminal flowers or relays between them (`grow`).
+//! once for axes of one order that follow one another, and the point of the laws is written in one place until the axis
+//! is at its age. Absent: steps with several units, neoformed nodes, drawn zones, terminal flowers or relays between
+//! them (`grow`).
 
 use super::around::Lie;
 use super::bud::ApicalBud;
-use super::compile::{OrderLaws, Piece, StepLaws, Tested};
+use super::compile::{OrderLaws, Piece};
 use super::grow::{Axis, Full};
 use super::params::ApexEnd;
 use super::record::Words;
 use crate::law::At;
 use phytomer_sim::clock::Tick;
 use phytomer_sim::plant::{ApexFate, Event, EventKind};
-
-/// The tests of a step, each looked up as far as it is the same at every step.
-struct Tests<'a> {
-    death: Tested<'a>,
-    pause: Tested<'a>,
-    short: Tested<'a>,
-}
-
-impl<'a> Tests<'a> {
-    fn of(laws: &'a StepLaws, shaded: bool) -> Self {
-        let [death, pause, short] = [&laws.death, &laws.pause, &laws.short].map(|chance| chance.looked_up(shaded));
-        Self { death, pause, short }
-    }
-}
 
 impl Axis<'_> {
     /// Whether it goes through its steps by [`Self::take_plain_steps`].
@@ -40,7 +27,8 @@ impl Axis<'_> {
     /// Goes through the steps up to the tick `last`, `in_all` of them since its birth. Whether the apex lives.
     pub(super) fn take_plain_steps(&mut self, last: Tick, in_all: u32) -> Result<bool, Full> {
         let laws = &self.laws.step;
-        let tests = Tests::of(laws, self.words.shaded);
+        let shaded = self.words.shaded;
+        let tests = *self.tests.get_or_insert_with(|| laws.tests(shaded));
         let (birth, speed) = (self.birth, self.speed);
         let mut at = self.at(0);
         for tick in self.bud.age + 1..=last {

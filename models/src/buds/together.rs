@@ -7,13 +7,16 @@
 use super::bud::ApicalBud;
 use super::compile::{BudModel, OrderLaws};
 use super::plan::Plan;
-use phytomer_sim::clock::Tick;
+use phytomer_sim::clock::{Speed, Tick};
 use phytomer_sim::plant::Plant;
 use phytomer_sim::random::{PlantRandom, Purpose, Sought, WORDS_OF_BLOCK, WordBlock};
 use std::ops::Range;
 
 /// Room for the words of more things of one kind than a node has, in blocks.
 const MOST_ON_NODE: usize = 64 / WORDS_OF_BLOCK;
+
+/// The fewest buds of one order, one after another, that make their nodes together.
+pub(super) const MANY_ALIKE: usize = 6;
 
 /// The words that an axis which goes through many steps reads at once, the first time and later: blocks of a stream are
 /// made faster many at once, but an axis may die soon.
@@ -57,8 +60,12 @@ impl NodeWords {
 /// Seeks the blocks of a stream in which some of its words stand.
 #[inline]
 fn seek(sought: &mut Vec<Sought>, stream: u64, words: Range<u64>) {
-    let blocks = words.start / WORDS_OF_BLOCK as u64..words.end.div_ceil(WORDS_OF_BLOCK as u64);
-    sought.extend(blocks.map(|block| Sought { stream, block }));
+    // Most often it is one.
+    let (mut block, end) = (words.start / WORDS_OF_BLOCK as u64, words.end.div_ceil(WORDS_OF_BLOCK as u64));
+    while block < end {
+        sought.push(Sought { stream, block });
+        block += 1;
+    }
 }
 
 /// Makes the blocks that are sought, with room for `more` behind them.
@@ -104,36 +111,36 @@ impl Ahead {
 
     /// Reads words of buds which are about to grow to `age`, in this order. A bud that makes its nodes `one_by_one`,
     /// and one at each step unless it dies, reads those of its next node too.
-    pub fn read<'a>(
-        &mut self,
-        (model, plant): (&BudModel, &Plant),
-        buds: impl Iterator<Item = &'a ApicalBud>,
-        age: Tick,
-        one_by_one: bool,
-    ) {
+    pub fn read(&mut self, (model, plant): (&BudModel, &Plant), buds: &[ApicalBud], age: Tick, one_by_one: bool) {
         self.clear();
         self.sought.clear();
+        let order = |bud: &ApicalBud| plant.axes.order[bud.axis.index()];
+        for alike in buds.chunk_by(|one, next| order(one) == order(next)) {
+            let one_by_one = one_by_one && alike.len() < MANY_ALIKE;
+            let records = Records::of(model.laws(order(&alike[0])), one_by_one);
+            self.read_alike(&records, plant, alike, age);
+        }
+        make(&self.sought, &mut self.blocks, 0, &plant.random);
+    }
+
+    /// Seeks the words of buds of one order.
+    fn read_alike(&mut self, of_order: &Records<'_>, plant: &Plant, buds: &[ApicalBud], age: Tick) {
         for bud in buds {
-            let axis = bud.axis.index();
-            let laws = model.laws(plant.axes.order[axis]);
-            let key = plant.axes.key[axis];
+            let key = plant.axes.key[bud.axis.index()];
             let mut of = OfBud { first: bud.cycle, node: bud.rank, ..OfBud::default() };
-            let (head, width) = (laws.head.width as u64, laws.step.width as u64);
-            of.steps = steps_at_once(laws, plant, bud, age).unwrap_or(0);
+            of.steps = of_order.steps_at_once(plant, bud, age);
             if of.steps > 0 {
-                let start = head + u64::from(of.first) * width;
-                let words = start..start + u64::from(of.steps) * width;
+                let start = of_order.head + u64::from(of.first) * of_order.width;
+                let words = start..start + u64::from(of.steps) * of_order.width;
                 of.words = self.seek(Sought::stream_of(key, Purpose::Bud), words);
-                let width = laws.node.width as u64;
-                let makes_one = laws.node.most_nodes == 1 && laws.step.pause.is_never();
-                if one_by_one && makes_one && width > 0 {
+                let width = of_order.node;
+                if width > 0 {
                     let start = u64::from(of.node) * width;
                     of.node_words = self.seek(Sought::stream_of(key, Purpose::Node), start..start + width);
                 }
             }
             self.buds.push(of);
         }
-        make(&self.sought, &mut self.blocks, 0, &plant.random);
     }
 
     /// Seeks some words of a stream; where they will stand.
@@ -168,16 +175,40 @@ impl Ahead {
     }
 }
 
-/// The number of steps that a bud reads at once when it begins to grow to `age`; `None` where that is not known before.
-/// Steps whose words are followed by words of responses are read one at a time.
-fn steps_at_once(laws: &OrderLaws, plant: &Plant, bud: &ApicalBud, age: Tick) -> Option<u32> {
-    let width = laws.step.width as u32;
-    if width == 0 {
-        return None;
+/// The records that buds of an order read.
+#[derive(Clone, Copy)]
+struct Records<'a> {
+    laws: &'a OrderLaws,
+    /// The words of the record of an axis, and of that of a step.
+    head: u64,
+    width: u64,
+    /// The words of the record of the next node, where it is read too; else 0.
+    node: u64,
+    /// The speed of every axis; `None` where axes draw it, or steps have no words.
+    speed: Option<Speed>,
+    /// Whether words of responses can follow those of a step.
+    responds: bool,
+}
+
+impl<'a> Records<'a> {
+    fn of(laws: &'a OrderLaws, one_by_one: bool) -> Self {
+        let (head, width) = (laws.head.width as u64, laws.step.width as u64);
+        let makes_one = laws.node.most_nodes == 1 && laws.step.pause.is_never();
+        let node = if one_by_one && makes_one { laws.node.width as u64 } else { 0 };
+        let speed = laws.head.speed.only().filter(|_| width > 0);
+        Self { laws, head, width, node, speed, responds: !laws.step.spare.places().is_empty() }
     }
-    let steps = laws.head.speed.only()?.steps_by(age.saturating_sub(plant.axes.birth[bud.axis.index()]));
-    let reads_responses = !laws.step.spare.places().is_empty();
-    let alone = reads_responses && !(laws.light_alone && plant.shade.of(bud.axis) == 0);
-    let most = if alone { 1 } else { (WORDS_AT_ONCE[0] as u32 / width).max(1) };
-    Some(steps.saturating_sub(bud.cycle).min(most))
+
+    /// The number of steps that a bud reads at once when it begins to grow to `age`; 0 where that is not known before.
+    /// Steps whose words are followed by words of responses are read one at a time.
+    #[inline]
+    fn steps_at_once(&self, plant: &Plant, bud: &ApicalBud, age: Tick) -> u32 {
+        let Some(speed) = self.speed else { return 0 };
+        let due = speed.steps_by(age.saturating_sub(plant.axes.birth[bud.axis.index()])).saturating_sub(bud.cycle);
+        if due <= 1 {
+            return due;
+        }
+        let alone = self.responds && !(self.laws.light_alone && plant.shade.of(bud.axis) == 0);
+        due.min(if alone { 1 } else { (WORDS_AT_ONCE[0] as u32 / self.width as u32).max(1) })
+    }
 }

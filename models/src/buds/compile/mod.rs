@@ -33,8 +33,8 @@ pub(super) use node::{
 };
 pub(super) use reach::Reach;
 pub(super) use relay::EndLaws;
-pub(super) use step::{PLACE_OF_DEATH, PLACE_OF_WEAKNESS, Passage, STEP_OF_RESPONSES, StepLaws};
-pub(super) use words::{Chance, Draws, Number, Piece, Spare, Tested, Things};
+pub(super) use step::{PLACE_OF_DEATH, PLACE_OF_WEAKNESS, Passage, STEP_OF_RESPONSES, StepLaws, StepTests};
+pub(super) use words::{Chance, Draws, Number, Piece, Spare, Things};
 pub(super) use zone::{Ramification, Ranks};
 
 use super::params::Buds;

@@ -5,7 +5,7 @@
 
 use super::change::{ByAge, Change};
 use super::compiler::{Compiler, Ranks};
-use super::words::{Chance, Layout, Number, Spare};
+use super::words::{Chance, Layout, Number, Spare, Tested};
 use super::zone::ZoneRanks;
 use crate::buds::params::{Order, Sibling, Transition};
 use crate::law::{CountTable, ProbabilityTable};
@@ -68,6 +68,14 @@ impl Passage {
     }
 }
 
+/// The tests of a plain step, each looked up as far as it is the same at every step.
+#[derive(Debug, Clone, Copy)]
+pub struct StepTests<'a> {
+    pub death: Tested<'a>,
+    pub pause: Tested<'a>,
+    pub short: Tested<'a>,
+}
+
 impl StepLaws {
     /// Compiles the laws of a step. An axis makes at most `last` growth units in all: in the run at hand, and in a run
     /// of any length.
@@ -120,6 +128,12 @@ impl StepLaws {
         let one_unit = self.per_step.fixed() == Some(1) && self.neoformed.fixed() == Some(0);
         let flowerless = self.flower.is_never() && !self.transitions.iter().any(|passage| passage.relayed);
         one_unit && flowerless && !self.zone_ranks.are_drawn()
+    }
+
+    /// The tests of a plain step of a bud, which lacks light where `shaded`.
+    pub fn tests(&self, shaded: bool) -> StepTests<'_> {
+        let [death, pause, short] = [&self.death, &self.pause, &self.short].map(|chance| chance.looked_up(shaded));
+        StepTests { death, pause, short }
     }
 
     /// Lets hazards join the mortality of a bud.

@@ -126,19 +126,37 @@ pub struct Draws<'a> {
 }
 
 impl Draws<'_> {
-    /// Calls `draw` for each stretch of things for which a law that varies so has the same parameters.
+    /// Calls `draw` for each stretch of things for which a law that varies so is the same: `law` is what a point has of
+    /// it. Growth units that follow one another and have the same are one stretch.
     #[inline]
-    fn stretches(&self, varies: Varies, mut draw: impl FnMut(At, Range<usize>)) {
-        let things = |nodes: Range<usize>| self.things.of(nodes.start).start..self.things.of(nodes.end - 1).end;
+    fn stretches<L: Copy + PartialEq>(
+        &self,
+        varies: Varies,
+        law: impl Fn(&At) -> L,
+        mut draw: impl FnMut(L, Range<usize>),
+    ) {
+        let [first, ..] = self.pieces else { return };
+        let all = self.all();
+        let (mut begin, mut same) = (all.start, law(&first.at(first.nodes.0 as usize)));
+        let mut next = |place: usize, here: L| {
+            if here != same {
+                draw(same, begin..place);
+                (begin, same) = (place, here);
+            }
+        };
         match varies {
-            Varies::Never => draw(self.pieces.first().map_or_else(At::default, |piece| piece.at), self.all()),
-            Varies::ByUnit => self.pieces.iter().for_each(|piece| draw(piece.at, things(piece.places()))),
+            Varies::Never => {}
+            Varies::ByUnit => {
+                let pieces = self.pieces[1..].iter();
+                pieces.for_each(|piece| next(self.things.of(piece.nodes.0 as usize).start, law(&piece.at)));
+            }
             Varies::ByNode => {
                 for piece in self.pieces {
-                    piece.places().for_each(|node| draw(piece.at(node), self.things.of(node)));
+                    piece.places().for_each(|node| next(self.things.of(node).start, law(&piece.at(node))));
                 }
             }
         }
+        draw(same, begin..all.end);
     }
 
     /// The places of the things of its growth units.
@@ -171,16 +189,34 @@ impl Measure {
     pub fn draw_many<T>(&self, draws: Draws<'_>, into: &mut [T], field: impl Fn(&mut T) -> &mut f32 + Copy) {
         match self.fixed {
             Some(fixed) => into[draws.all()].iter_mut().for_each(|entry| *field(entry) = fixed),
-            None => draws.stretches(self.table.varies(), |at, things| {
-                let fields = into[things.clone()].iter_mut().map(field);
-                self.table.draw_many(at, draws.words(self.slot, things).zip(fields), |own| own * self.unit);
-            }),
+            None => draws.stretches(
+                self.table.varies(),
+                |at| self.table.parameters(at),
+                |parameters, things| {
+                    let fields = into[things.clone()].iter_mut().map(field);
+                    self.table.draw_many(parameters, draws.words(self.slot, things).zip(fields), |own| own * self.unit);
+                },
+            ),
         }
         if let Some(factor) = self.times.as_ref().filter(|_| draws.are_shaded() || !self.light_alone) {
-            draws.stretches(Varies::ByUnit, |at, things| {
-                into[things].iter_mut().for_each(|entry| *field(entry) = times(*field(entry), factor.at(at)));
-            });
+            draws.stretches(
+                Varies::ByUnit,
+                |at| Factor(factor.at(*at)),
+                |Factor(factor), things| {
+                    into[things].iter_mut().for_each(|entry| *field(entry) = times(*field(entry), factor));
+                },
+            );
         }
+    }
+}
+
+/// A factor of responses, the same as another to the bit.
+#[derive(Clone, Copy)]
+struct Factor(f64);
+
+impl PartialEq for Factor {
+    fn eq(&self, other: &Self) -> bool {
+        self.0.to_bits() == other.0.to_bits()
     }
 }
 
@@ -198,9 +234,13 @@ impl Number {
         into.clear();
         into.resize(draws.things.len(), self.fixed.unwrap_or(0));
         if self.fixed.is_none() {
-            draws.stretches(self.table.varies(), |at, things| {
-                self.table.sample_many(at, draws.words(self.slot, things.clone()).zip(&mut into[things]));
-            });
+            draws.stretches(
+                self.table.varies(),
+                |at| self.table.distribution(at),
+                |number, things| {
+                    self.table.sample_many(number, draws.words(self.slot, things.clone()).zip(&mut into[things]));
+                },
+            );
         }
     }
 }
@@ -234,13 +274,17 @@ impl Chance {
         }
         let responds = self.change.is_some() && (draws.are_shaded() || !self.light_alone);
         let varies = if responds { self.table.varies().max(Varies::ByUnit) } else { self.table.varies() };
-        draws.stretches(varies, |at, things| match self.outcome(at) {
-            Outcome::Fixed(false) => {}
-            Outcome::Fixed(true) => things.for_each(&mut told),
-            Outcome::Drawn(threshold) => {
-                let words = draws.words(self.slot, things.clone());
-                things.zip(words).filter(|(_, word)| threshold.is_met(*word)).for_each(|(thing, _)| told(thing));
-            }
-        });
+        draws.stretches(
+            varies,
+            |at| self.outcome(*at),
+            |outcome, things| match outcome {
+                Outcome::Fixed(false) => {}
+                Outcome::Fixed(true) => things.for_each(&mut told),
+                Outcome::Drawn(threshold) => {
+                    let words = draws.words(self.slot, things.clone());
+                    things.zip(words).filter(|(_, word)| threshold.is_met(*word)).for_each(|(thing, _)| told(thing));
+                }
+            },
+        );
     }
 }

@@ -1,0 +1,81 @@
+//! Axes of one order that grow one after another: what is the same for all of them is looked up once.
+//!
+//! Absent: the growth of one axis (`grow`), and the words that are read for many (`together`).
+
+use super::bud::ApicalBud;
+use super::compile::BudModel;
+use super::grow::{Axis, Full};
+use super::record::Words;
+use super::together::MANY_ALIKE;
+use phytomer_sim::Tick;
+use phytomer_sim::model::Overgrown;
+use phytomer_sim::plant::Plant;
+use phytomer_sim::site::Site;
+
+impl BudModel {
+    /// Grows axes of one order from their buds to `age`, one after another. The buds join the living ones among
+    /// `words`, whose last nodes may be left to be made by [`Self::make_last`].
+    pub(super) fn grow_alike(
+        &self,
+        (plant, site): (&mut Plant, Option<&Site>),
+        buds: &[ApicalBud],
+        age: Tick,
+        words: &mut Words,
+    ) -> Result<(), Overgrown> {
+        let Some(first) = buds.first() else { return Ok(()) };
+        let grown = {
+            let mut axis = Axis::new(self, plant, words, *first);
+            buds.iter().enumerate().try_for_each(|(nth, bud)| {
+                if nth > 0 {
+                    axis.go_on_to(*bud);
+                }
+                if site.is_some() {
+                    axis.look_around(site);
+                }
+                axis.grow(age)
+            })
+        };
+        grown.map_err(|Full| Overgrown::of(plant))
+    }
+
+    /// As [`Self::grow_alike`], for axes of any orders.
+    pub(super) fn grow_all(
+        &self,
+        (plant, site): (&mut Plant, Option<&Site>),
+        mut buds: &[ApicalBud],
+        age: Tick,
+        words: &mut Words,
+    ) -> Result<(), Overgrown> {
+        while let Some(first) = buds.first() {
+            let order = |bud: &ApicalBud| plant.axes.order[bud.axis.index()];
+            let alike = buds.iter().take_while(|bud| order(bud) == order(first)).count();
+            let (now, later) = buds.split_at(alike);
+            words.many_alike = alike >= MANY_ALIKE;
+            self.grow_alike((plant, site), now, age, words)?;
+            buds = later;
+        }
+        Ok(())
+    }
+}
+
+impl Axis<'_> {
+    /// Goes on to another axis of the same order.
+    #[inline]
+    fn go_on_to(&mut self, bud: ApicalBud) {
+        let place = bud.axis.index();
+        self.words.of_next(self.laws);
+        self.bud = bud;
+        (self.start, self.around, self.contact, self.plans) = (None, None, 0, false);
+        (self.leads, self.birth) = (!self.plant.axes.follows[place], self.plant.axes.birth[place]);
+        self.set_tick(bud.age);
+        if self.laws.asks_light {
+            self.shade = self.plant.shade.of(bud.axis);
+            if self.words.shaded != (self.shade > 0) {
+                (self.words.shaded, self.tests) = (self.shade > 0, None);
+            }
+        }
+        if self.laws.head.guides_growth {
+            self.read_head();
+        }
+    }
+}
