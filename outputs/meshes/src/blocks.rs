@@ -13,7 +13,7 @@ use std::convert::Infallible;
 use std::ops::Range;
 
 /// The number of entries of a column in one block of a scene.
-const BLOCK: usize = 256;
+pub(super) const BLOCK: usize = 256;
 
 /// What is done with the vertices and the triangles of a component.
 pub type TakeAlone<'a> = dyn FnMut(&[Vertex], &[[u32; 3]]) + 'a;

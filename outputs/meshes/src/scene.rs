@@ -16,7 +16,7 @@ use super::organ_base::organ_base;
 use super::outline::{self, OrganForm, Outlines, OwnForm, Shown};
 use super::stem::Stems;
 use super::wood::Wood;
-use super::{About, Joints, MeshOptions, Tolerance, colour};
+use super::{About, Joints, MeshOptions, Thinned, Tolerance, colour};
 use phytomer_looks::Paints;
 use phytomer_sim::clock::Tick;
 use phytomer_sim::plant::{NodeId, OrganId, Plant};
@@ -101,6 +101,11 @@ impl<'a> Scene<'a> {
         Self::new(self.plant, self.age, &MeshOptions { tolerance: Some(tolerance), ..self.options.clone() })
     }
 
+    /// Draws fewer or more of its organs.
+    pub fn thin(&mut self, thinned: Option<Thinned>) {
+        self.options.thinned = thinned;
+    }
+
     /// How it is drawn.
     pub fn options(&self) -> &MeshOptions {
         &self.options
@@ -144,6 +149,16 @@ impl<'a> Scene<'a> {
             count(form.vertices(), form.faces().len());
         });
         counts
+    }
+
+    /// The number of triangles of its internodes.
+    pub fn wood_faces(&self) -> u64 {
+        let mut faces = self.wood.counts().faces;
+        let Ok::<(), Infallible>(()) = self.each_stem(0..self.stem_places(), |node| {
+            faces += self.stems.form(node).faces().len() as u64;
+            Ok(())
+        });
+        faces
     }
 
     /// Writes the vertices into `chunk`, and calls `sink` with each full chunk and with the last one.
@@ -312,6 +327,15 @@ impl<'a> Scene<'a> {
         }
     }
 
+    /// Calls `take` with the coarser forms of an organ, the finest first: the distance, metres, from which on a tolerance
+    /// of organs allows it or a coarser one, and its triangles.
+    pub fn coarser_of(&self, organ: OrganId, take: &mut dyn FnMut(f32, u32)) {
+        if let Shown::Whole(OrganForm::Shape(shape)) = self.form(organ) {
+            let (organs, place) = (&self.plant.organs, organ.index());
+            shape.each_coarser([organs.length[place], organs.width[place]], take);
+        }
+    }
+
     #[inline]
     pub(super) fn write_organ(&self, form: Shown<'_>, organ: OrganId, out: &mut [Vertex]) {
         let tags = self.organ_tags(organ);
@@ -344,15 +368,21 @@ impl<'a> Scene<'a> {
     }
 
     /// The placement of an organ, with its size at its age, and with the fullness that gives it the area in the tables.
-    fn placement(&self, organ: OrganId, shape: &FormMesh) -> Placement {
+    pub(super) fn placement(&self, organ: OrganId, shape: &FormMesh) -> Placement {
         let frame = organ_base(self.plant, organ, self.age);
         let organs = &self.plant.organs;
         let share = self.share(organ);
         let full = [organs.length[organ.index()], organs.width[organ.index()]];
-        // An organ expands in proportion, so its fullness is that of its full size.
-        let fullness = shape.fullness(full, organs.area[organ.index()]);
+        let fullness = self.fullness(organ, shape);
         let size = full.map(|size| size * share);
         Placement { base: frame.base, heading: frame.heading, up: frame.up, size, fullness }
+    }
+
+    /// The fullness of an organ in a form. An organ expands in proportion, so its fullness is that of its full size.
+    #[inline]
+    pub(super) fn fullness(&self, organ: OrganId, shape: &FormMesh) -> f32 {
+        let (organs, place) = (&self.plant.organs, organ.index());
+        shape.fullness([organs.length[place], organs.width[place]], organs.area[place])
     }
 
     /// The length and the area of the triangle that stands for an organ; one without an area fills half of its box.
