@@ -82,8 +82,8 @@ fn said(path: &Path) -> Vec<String> {
     levels.iter().map(|level| level["triangles"].to_string()).collect()
 }
 
-/// A reader in Python of an environment that has a module; what it finds wrong fails. Where it is missing it is skipped, but
-/// never in CI.
+/// A reader in Python of an environment that has a module; what it finds wrong fails. Where it is missing it is
+/// skipped, but never in CI.
 fn read(environment: &str, module: &str, script: &str, arguments: &[String]) {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let python = root.join(environment).join("bin/python");

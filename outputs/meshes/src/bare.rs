@@ -128,8 +128,8 @@ impl Scene<'_> {
         }
     }
 
-    /// A box that holds an organ of which nothing is left out, in its own form and in its coarser ones; `None` for a form
-    /// that the organ states itself.
+    /// A box that holds an organ of which nothing is left out, in its own form and in its coarser ones; `None` for a
+    /// form that the organ states itself.
     pub fn box_of(&self, organ: OrganId) -> Option<OrganBox> {
         let Shown::Whole(OrganForm::Shape(shape)) = self.form(organ) else { return None };
         let place = self.placement(organ, shape);

@@ -151,16 +151,6 @@ impl<'a> Scene<'a> {
         counts
     }
 
-    /// The number of triangles of its internodes.
-    pub fn wood_faces(&self) -> u64 {
-        let mut faces = self.wood.counts().faces;
-        let Ok::<(), Infallible>(()) = self.each_stem(0..self.stem_places(), |node| {
-            faces += self.stems.form(node).faces().len() as u64;
-            Ok(())
-        });
-        faces
-    }
-
     /// Writes the vertices into `chunk`, and calls `sink` with each full chunk and with the last one.
     ///
     /// # Errors
@@ -324,15 +314,6 @@ impl<'a> Scene<'a> {
         match self.options.tolerance.filter(|tolerance| tolerance.organs) {
             Some(tolerance) => shape.within(tolerance.distance, [organs.length[place], organs.width[place]]),
             None => shape,
-        }
-    }
-
-    /// Calls `take` with the coarser forms of an organ, the finest first: the distance, metres, from which on a tolerance
-    /// of organs allows it or a coarser one, and its triangles.
-    pub fn coarser_of(&self, organ: OrganId, take: &mut dyn FnMut(f32, u32)) {
-        if let Shown::Whole(OrganForm::Shape(shape)) = self.form(organ) {
-            let (organs, place) = (&self.plant.organs, organ.index());
-            shape.each_coarser([organs.length[place], organs.width[place]], take);
         }
     }
 

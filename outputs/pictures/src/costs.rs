@@ -99,8 +99,8 @@ impl Costs {
         fits.count() as f64 / PARTS as f64
     }
 
-    /// The next lower share that is a whole number of parts: of a number of triangles that such a share has, the largest
-    /// share within that number is none smaller.
+    /// The next lower share that is a whole number of parts: of a number of triangles that such a share has, the
+    /// largest share within that number is none smaller.
     pub fn in_parts(share: f64) -> f64 {
         if share < 1.0 { (share * PARTS as f64) as u32 as f64 / PARTS as f64 } else { share }
     }
@@ -110,7 +110,8 @@ impl Costs {
         self.organs.len()
     }
 
-    /// Tells the places of some organs of a scene, but of those that it leaves out; places that are not asked for are not made.
+    /// Tells the places of some organs of a scene, but of those that it leaves out; places that are not asked for are
+    /// not made.
     pub fn places(&self, organs: Range<usize>, scene: &Scene, room: &mut Room, take: &mut dyn TakePlaces) {
         let thinned = scene.options().thinned;
         let share = thinned.map_or(f64::INFINITY, |thinned| thinned.share);

@@ -42,8 +42,8 @@ const AIM: f64 = 0.25;
 /// The part of them that it has at most, else it is none.
 const WORTH: f64 = 0.8;
 
-/// The largest tolerance, in longest sides of the plant: stems that begin so far beside the one that they go on from are joined
-/// within sixteen times the distance.
+/// The largest tolerance, in longest sides of the plant: stems that begin so far beside the one that they go on from
+/// are joined within sixteen times the distance.
 const OF_LONGEST: f32 = 16.0;
 
 /// The share of its radius by which the radius of wood may be off.
@@ -145,6 +145,8 @@ struct Search<'p> {
     wood_faces: BTreeMap<u32, u64>,
     /// The step that was looked at last.
     looked: Option<Looked<'p>>,
+    /// The outline of all organs with so many triangles.
+    organs: Option<(u64, Outline)>,
 }
 
 /// The plant at a step, and the outline of its wood where that was drawn.
@@ -171,8 +173,8 @@ impl<'p> Search<'p> {
         let octaves = options.tolerance.map_or(0.0, |own| log2(f64::from(own.distance / Tolerance::LEAST)));
         let step = (octaves * f64::from(STEPS)).clamp(0.0, f64::from(last)) as u32;
         let faces = scene.counts().faces;
-        let (wood_faces, looked) = (BTreeMap::new(), None);
-        Self { plant, age, options, outline, faces, distances, step, last, costs, wood_faces, looked }
+        let (wood_faces, looked, organs) = (BTreeMap::new(), None, None);
+        Self { plant, age, options, outline, faces, distances, step, last, costs, wood_faces, looked, organs }
     }
 
     fn first(&self) -> Tried {
@@ -208,16 +210,24 @@ impl<'p> Search<'p> {
         Tried { step, share, options, faces: of_wood + self.costs.faces(step, share), apart: Apart::default() }
     }
 
-    /// Looks at the outline of a mesh, and tells whether it holds. Wood is drawn once for each step.
+    /// Looks at the outline of a mesh, and tells whether it holds. Wood is drawn once for each step, and all organs
+    /// once for all steps with the same forms.
     fn holds(&mut self, tried: &mut Tried) -> bool {
-        if let Some((sides, first)) = self.outline.take() {
-            self.look(tried.step);
-            let (Some(Looked { scene, wood, .. }), costs) = (&mut self.looked, &self.costs) else { return false };
-            let wood = wood.get_or_insert_with(|| sides.of_wood(scene));
-            scene.thin(tried.options.thinned);
-            tried.apart = sides.of(wood, scene, costs).apart(&first);
-            self.outline = Some((sides, first));
-        }
+        self.look(tried.step);
+        let Self { outline: Some((sides, first)), looked: Some(looked), costs, organs, .. } = self else { return true };
+        let Looked { scene, wood, .. } = looked;
+        let wood = wood.get_or_insert_with(|| sides.of_wood(scene));
+        scene.thin(tried.options.thinned);
+        let outline = if tried.options.thinned.is_some() {
+            sides.of(wood, scene, costs)
+        } else {
+            // Forms only become coarser, so that as many triangles are the same forms.
+            let faces = costs.faces(tried.step, 1.0);
+            let known = organs.take().filter(|known| known.0 == faces);
+            let known = known.unwrap_or_else(|| (faces, sides.of(&Outline::default(), scene, costs)));
+            organs.insert(known).1.with(wood)
+        };
+        tried.apart = outline.apart(first);
         tried.apart.area <= MOST_APART
     }
 
@@ -327,8 +337,8 @@ fn plain(options: &MeshOptions) -> MeshOptions {
     MeshOptions { colours: None, swings: None, attributes: false, crown_normals: false, ..options.clone() }
 }
 
-/// Where between an outline that does not hold and one that does lies the first that does, if the differences from each side
-/// change evenly: the part of the way.
+/// Where between an outline that does not hold and one that does lies the first that does, if the differences from
+/// each side change evenly: the part of the way.
 fn part_that_holds(low: &Apart, high: &Apart) -> f64 {
     let sides = low.by_side.iter().zip(&high.by_side).map(|(low, high)| {
         let wanted = low.clamp(-AIMED_APART, AIMED_APART);

@@ -187,6 +187,12 @@ impl TakePlaces for Bounds {
 }
 
 impl Outline {
+    /// What it or another on the same lattices covers.
+    pub fn with(&self, other: &Self) -> Self {
+        let bits = self.bits.iter().zip(&other.bits).map(|(one, other)| one | other).collect();
+        Self { bits, words: self.words }
+    }
+
     /// The number of samples that are covered from each direction.
     pub fn covered(&self) -> [u64; DRAWN] {
         self.count(|word| self.bits[word])

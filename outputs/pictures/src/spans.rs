@@ -75,8 +75,8 @@ impl<'l> Sheet<'l> {
         self.bits.into_iter().map(AtomicU64::into_inner).collect()
     }
 
-    /// Calls `each` with the words of a run of columns on a row of a direction and the bits of the run in each, until it
-    /// returns false; whether it never did.
+    /// Calls `each` with the words of a run of columns on a row of a direction and the bits of the run in each, until
+    /// it returns false; whether it never did.
     #[inline]
     fn run(&self, row: u32, side: usize, low: f32, high: f32, mut each: impl FnMut(&AtomicU64, u64) -> bool) -> bool {
         let first = above(low - 0.5).max(0);
@@ -168,12 +168,19 @@ impl<'s, 'l> Pen<'s, 'l> {
             }
         }
         let Some(rows) = between(a.y - 0.5, c.y - 0.5, &(0..self.sheet.lattice.rows)) else { return };
-        let [long, upper, lower] = [slope(a, c), slope(a, b), slope(b, c)];
-        for row in rows {
-            let y = row as f32 + 0.5;
-            let one = a.x + (y - a.y) * long;
-            let other = if y < b.y { a.x + (y - a.y) * upper } else { b.x + (y - b.y) * lower };
-            self.sheet.cover(row, one.min(other), one.max(other));
+        let long = slope(a, c);
+        // Above and below the middle corner; a small triangle often has rows on one side of it alone.
+        let below = rows.clone().find(|row| *row as f32 + 0.5 >= b.y).unwrap_or(rows.end);
+        for (rows, from, to) in [(rows.start..below, a, b), (below..rows.end, b, c)] {
+            if rows.is_empty() {
+                continue;
+            }
+            let short = slope(from, to);
+            for row in rows {
+                let y = row as f32 + 0.5;
+                let (one, other) = (a.x + (y - a.y) * long, from.x + (y - from.y) * short);
+                self.sheet.cover(row, one.min(other), one.max(other));
+            }
         }
     }
 

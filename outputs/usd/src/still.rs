@@ -26,9 +26,9 @@ pub fn write_plant(asked: &Asked, scene: &Scene, run_seed: u64, out: &mut dyn Pa
     write_still(asked, &wood, (&StillOrgans::of_plant(scene), scene.columns()), out)
 }
 
-/// Writes levels of detail of a plant, the finest first, as a set of variants `lod` of the prim at the root: `lod0`, `lod1`
-/// and so on, of which the first is chosen. That has organs as they are asked for; in the coarser ones they are merged,
-/// since they have coarser forms.
+/// Writes levels of detail of a plant, the finest first, as a set of variants `lod` of the prim at the root: `lod0`,
+/// `lod1` and so on, of which the first is chosen. That has organs as they are asked for; in the coarser ones they
+/// are merged, since they have coarser forms.
 ///
 /// # Errors
 /// Those of `out`.

@@ -1,7 +1,7 @@
 //! Levels of detail: `mesh --lods 4`, or `--lods 20k,5k,1k` with the triangles of each further level.
 //!
-//! A GLB or USD file holds all levels; of other formats there is a file for each, `NAME_lod0.ply` and so on. Absent: which
-//! levels there are (`phytomer_outputs::pictures::levels`), and the files of a level.
+//! A GLB or USD file holds all levels; of other formats there is a file for each, `NAME_lod0.ply` and so on. Absent:
+//! which levels there are (`phytomer_outputs::pictures::levels`), and the files of a level.
 
 use super::super::budget::{length, triangles};
 use super::super::regrown::Regrown;

@@ -160,8 +160,8 @@ impl FormMesh {
         serves.map_or(self, |coarse| &coarse.mesh)
     }
 
-    /// Calls `take` with the coarser forms, the finest first: the distance, metres, from which on [`Self::within`] gives it
-    /// or a coarser one for an organ of this length and width, and its triangles.
+    /// Calls `take` with the coarser forms, the finest first: the distance, metres, from which on [`Self::within`]
+    /// gives it or a coarser one for an organ of this length and width, and its triangles.
     pub(super) fn each_coarser(&self, size: [f32; 2], take: &mut dyn FnMut(f32, u32)) {
         let all = self.coarser();
         for (place, coarse) in all.iter().enumerate() {

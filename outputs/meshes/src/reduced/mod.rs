@@ -172,8 +172,8 @@ impl Reduced {
         Ok(())
     }
 
-    /// Calls `take` with the places of the corners of each ring of a tube but the first, and of the ring before it; the lists
-    /// are working memory.
+    /// Calls `take` with the places of the corners of each ring of a tube but the first, and of the ring before it;
+    /// the lists are working memory.
     pub fn each_piece(
         &self,
         stems: &Stems,
