@@ -2,6 +2,8 @@
 //!
 //! Absent: whether outlines hold (`levels`), and whether a GLB file is valid (`glb`).
 
+#[path = "program/absent.rs"]
+mod absent;
 #[allow(dead_code, reason = "the place is told elsewhere")]
 mod ply;
 mod program;
@@ -11,6 +13,7 @@ use program::run;
 use serde_json::Value;
 use std::fs;
 use std::path::Path;
+use std::process::Command;
 use tempfile::tempdir;
 
 const PLANT: [&str; 5] = ["mesh", "coffee", "--age", "18", "--lods"];
@@ -72,6 +75,97 @@ fn one_glb_has_all_levels_and_other_formats_have_a_file_for_each() {
     assert!(folder.path().join("coffee_lod1.stl").exists());
 }
 
+/// The triangles that a file of levels says of them.
+fn said(path: &Path) -> Vec<String> {
+    let file = json(path);
+    let levels = file["asset"]["extras"]["levels"].as_array().expect("levels").clone();
+    levels.iter().map(|level| level["triangles"].to_string()).collect()
+}
+
+/// A reader in Python of an environment that has a module; what it finds wrong fails. Where it is missing it is
+/// skipped, but never in CI.
+fn read(environment: &str, module: &str, script: &str, arguments: &[String]) {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let python = root.join(environment).join("bin/python");
+    let found = Command::new(&python).args(["-c", &format!("import {module}")]).output();
+    if !found.is_ok_and(|found| found.status.success()) {
+        assert!(!absent::in_ci(), "CI must have {module} in {environment}");
+        return absent::skip(&format!("no {module} in {environment}; .ci/run installs it"));
+    }
+    let done = Command::new(&python).arg(root.join("tests/readers").join(script)).args(arguments).output();
+    let done = done.expect("python runs");
+    let told = [done.stdout, done.stderr].map(|text| String::from_utf8_lossy(&text).into_owned());
+    assert!(done.status.success(), "{arguments:?}:\n{}{}", told[0], told[1]);
+}
+
+/// USD has a set of variants, with the triangles of the levels of GLB; GLB and OBJ open in Blender with all of theirs.
+#[test]
+fn openusd_and_blender_read_the_levels() {
+    let folder = tempdir().expect("a temporary folder");
+    let at = |name: &str| folder.path().join(name).to_str().expect("a path in UTF-8").to_owned();
+    for name in ["a.glb", "a.usda", "a.usdc", "a.usdz", "a.obj", "merged.usdc"] {
+        let more: &[&str] = if name == "merged.usdc" { &["--leaves", "merged"] } else { &[] };
+        run(folder.path(), &words("3", more, name)).ending(0);
+    }
+    let faces = said(&folder.path().join("a.glb"));
+    assert_eq!(faces.len(), 3);
+    let dashes = ["--".to_owned()];
+    let of_usd = ["a.usda", "a.usdc", "a.usdz"].map(at);
+    read(".venv", "pxr", "lods_usd.py", &[&faces[..], &dashes, &of_usd].concat());
+    read(".venv", "pxr", "lods_usd.py", &[&faces[..], &dashes, &[at("merged.usdc")]].concat());
+    let of_blender = ["a.glb", "a_lod0.obj", "a_lod1.obj", "a_lod2.obj"].map(at);
+    for environment in [".venv-blender-4.2", ".venv-blender"] {
+        read(environment, "bpy", "lods_blender.py", &[&faces[..], &dashes, &of_blender].concat());
+    }
+}
+
+/// Two species in a plot, beside a stone.
+const PLOT: &str = r#"
+name = "plot"
+species = "coffee"
+plants = 3
+spacing_m = 4
+seed = 5
+ages = { until = 24, record = [24] }
+member = [{ at_m = [-1, 0] }, { at_m = [1, 0.5] }, { species = "frangipani", at_m = [0, -1], sown = 4 }]
+
+[[site.obstacle]]
+shape = { form = "box", at_m = [0, 1.5, 0], size_m = [0.5, 0.5, 0.4] }
+"#;
+
+/// Each plant of a plot has levels; the obstacles stay, and stated numbers are for all plants together.
+#[test]
+fn plots_have_levels_of_their_plants() {
+    let folder = tempdir().expect("a temporary folder");
+    fs::write(folder.path().join("plot.toml"), PLOT).expect("a scenario file");
+    let plot = ["mesh", "plot.toml", "--plot", "--age", "24"];
+    let written = |more: &[&str]| run(folder.path(), &[&plot[..], more].concat()).ending(0).stdout;
+    let told = written(&["--lods", "3", "--out", "plot.glb"]);
+    assert!(told.contains("level 1: ") && told.contains("outline of each plant within"), "{told}");
+    let path = folder.path().join("plot.glb");
+    let (file, said) = (json(&path), said(&path));
+    let own: Vec<u64> = (0..said.len()).map(|node| triangles(&file, node)).collect();
+    assert_eq!(own.iter().map(u64::to_string).collect::<Vec<_>>(), said);
+    assert!(own.len() > 1 && own.windows(2).all(|pair| pair[1] < pair[0]), "{own:?}");
+    written(&["--out", "alone.ply"]);
+    let half = format!("{}k", own[0] / 2000);
+    written(&["--lods", &half, "--out", "plot.ply"]);
+    let read = |name: &str| mesh(&folder.path().join(name));
+    assert_eq!(read("plot_lod0.ply"), read("alone.ply"), "the first level is the mesh without levels");
+    let (header, bytes) = read("plot_lod1.ply");
+    assert!(count(&header, "face") as u64 <= own[0] / 2, "{header}");
+    // Vertices of obstacles have the component number -1, and are the same in each level.
+    let of_obstacles = |header: &str, bytes: &[u8]| {
+        let vertices = bytes[..49 * count(header, "vertex")].chunks_exact(49);
+        vertices.filter(|vertex| vertex[44..48] == [u8::MAX; 4]).count()
+    };
+    let (first, all) = read("plot_lod0.ply");
+    assert!(of_obstacles(&first, &all) > 0);
+    assert_eq!(of_obstacles(&header, &bytes), of_obstacles(&first, &all));
+    let few = run(folder.path(), &[&plot[..], &["--lods", "90,9", "--out", "no.glb"]].concat()).ending(2).stderr;
+    assert!(few.contains("--lods") && few.contains("of plot 0 at tick 24"), "{few}");
+}
+
 #[test]
 fn what_cannot_be_is_told_and_leaves_nothing() {
     let folder = tempdir().expect("a temporary folder");
@@ -85,7 +179,7 @@ fn what_cannot_be_is_told_and_leaves_nothing() {
         ("5k,6k", &[], "no.glb", "each level has fewer than the one before"),
         ("9,8", &[], "no.ply", "--lods: level 1 of plant 0 at age 18 may have 9 triangles, and has at least "),
         ("2", &["--leaves", "instances"], "no.glb", "--lods: organs that stand for others"),
-        ("2", &[], "no.usdc", "--lods: this is for GLB, PLY, OBJ and STL"),
+        ("2", &["--plot"], "no.usdc", "--lods: a USD file has levels of a single plant"),
         ("2", &["--cards"], "no.ply", "--cards: they have textures"),
         ("1", &["--cards"], "no.glb", "--cards: they are the last of at least two levels"),
         ("900,7", &["--cards"], "no.glb", "may have 7 triangles, and has at least 8"),
@@ -94,13 +188,26 @@ fn what_cannot_be_is_told_and_leaves_nothing() {
         let said = run(folder.path(), &words(lods, more, out)).ending(2);
         assert!(said.stderr.contains(told), "{lods} {more:?}: {}", said.stderr);
     }
-    for more in [&["--plot"][..], &["--rig", "9", "--wind", "5"], &["--range", "9"]] {
+    for more in [&["--plot", "--cards"][..], &["--rig", "9", "--wind", "5"], &["--range", "9"]] {
         let said = run(folder.path(), &words("2", more, "no.glb")).ending(2);
         assert!(said.stderr.contains("cannot be used with"), "{more:?}: {}", said.stderr);
     }
     let life = run(folder.path(), &["mesh", "coffee", "--ages", "1..9", "--lods", "2", "--out", "no.glb"]).ending(2);
     assert!(life.stderr.contains("cannot be used with"), "{}", life.stderr);
     assert_eq!(fs::read_dir(folder.path()).expect("a folder").count(), 0, "no file is left");
+}
+
+/// An open crown has cards too: what covers too much from one side is found together with all others.
+#[test]
+fn open_crowns_have_cards() {
+    let folder = tempdir().expect("a temporary folder");
+    for (name, age) in [("coffee", "36"), ("abop/2.8a", "6")] {
+        run(folder.path(), &["mesh", name, "--age", age, "--lods", "2", "--cards", "--out", "open.glb"]).ending(0);
+        let file = json(&folder.path().join("open.glb"));
+        let last = file["asset"]["extras"]["levels"].as_array().and_then(|levels| levels.last()).expect("levels");
+        assert_eq!(last["cards"], 4, "{name}");
+        assert!(last["outline_area_apart"].as_f64().expect("a share") <= 0.03, "{name}: {last}");
+    }
 }
 
 /// Cards are four quads in planes 45 degrees apart, with an atlas in the file whose upper edge is the top of the plant.

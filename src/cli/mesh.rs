@@ -10,6 +10,7 @@ mod keyed;
 mod life;
 mod lods;
 mod measured;
+mod plot_lods;
 mod rig;
 mod usd;
 
@@ -64,6 +65,8 @@ Examples:
   phytomer mesh wp/quaking_aspen --levels 0-1 --out collision.ply
   phytomer mesh wp/quaking_aspen --lods 4 --cards --out levels.glb
   phytomer mesh coffee --age 36 --lods 8k,4k --out coffee.ply
+  phytomer mesh wp/quaking_aspen --lods 4 --out levels.usdc
+  phytomer mesh under_a_roof --plot --age 12 --lods 3 --out plot.glb
   phytomer mesh wp/quaking_aspen --range 120 --fov 30 --bark 0.5 --out far.glb
   phytomer mesh wp/quaking_aspen --wind 5 --gust 3 --time 0.4 --out swaying.ply
 
@@ -132,7 +135,7 @@ impl Mesh {
             return measured::write(&self, &measured, format);
         }
         self.joining.check(self.growing.is_asked() || self.rig.asked().is_some())?;
-        self.lods.check(&self.out, format)?;
+        self.lods.check(&self.out, format, self.plot.is_some())?;
         colouring::whole("--age", self.age.as_slice(), self.dressing.colour_by.as_ref())?;
         let ages: Vec<Tick> = self.age.iter().map(|age| age.tick()).chain(self.growing.last()).collect();
         match Regrown::find(&self.name, &self.constants, &ages)? {
@@ -267,6 +270,9 @@ impl Mesh {
             within.iter().for_each(|tolerance| mesh.within(*tolerance));
             let scenes = mesh.bodies.iter().map(|body| Scene::new(body.plant, body.age, &body.options));
             self.joining.has_wood(&what, &scenes.collect::<Vec<_>>())?;
+            if self.lods.asked().is_some() {
+                return plot_lods::write(self, &mesh, format, &what);
+            }
             format.write_plot(&mesh, &mut file, &self.out).with_context(|| self.failing())?;
         }
         let joined = self.joining.in_words();

@@ -5,6 +5,7 @@
 
 use super::Mesh;
 use super::chunk::{Face, Vertex};
+use super::outline::{OrganForm, Shown};
 use super::reduced::Reduced;
 use super::scene::Scene;
 use bytemuck::Zeroable;
@@ -13,7 +14,7 @@ use std::convert::Infallible;
 use std::ops::Range;
 
 /// The number of entries of a column in one block of a scene.
-const BLOCK: usize = 256;
+pub(super) const BLOCK: usize = 256;
 
 /// What is done with the vertices and the triangles of a component.
 pub type TakeAlone<'a> = dyn FnMut(&[Vertex], &[[u32; 3]]) + 'a;
@@ -36,6 +37,25 @@ impl Scene<'_> {
     /// The number of triangles of an organ.
     pub fn faces_of(&self, organ: OrganId) -> u64 {
         self.form(organ).faces().len() as u64
+    }
+
+    /// The number of triangles of its internodes.
+    pub fn wood_faces(&self) -> u64 {
+        let mut faces = self.wood.counts().faces;
+        let Ok::<(), Infallible>(()) = self.each_stem(0..self.stem_places(), |node| {
+            faces += self.stems().form(node).faces().len() as u64;
+            Ok(())
+        });
+        faces
+    }
+
+    /// Calls `take` with the coarser forms of an organ, the finest first: the distance, metres, from which on a
+    /// tolerance of organs allows it or a coarser one, and its triangles.
+    pub fn coarser_of(&self, organ: OrganId, take: &mut dyn FnMut(f32, u32)) {
+        if let Shown::Whole(OrganForm::Shape(shape)) = self.form(organ) {
+            let (organs, place) = (&self.plant().organs, organ.index());
+            shape.each_coarser([organs.length[place], organs.width[place]], take);
+        }
     }
 
     /// How many of its blocks are those of organs, which are the last and do not depend on how wood is drawn.

@@ -8,6 +8,7 @@
 //! components. Absent: buds, which have no form, and bending, which is part of the pose.
 
 mod attributes;
+mod bare;
 mod blocks;
 mod boxes;
 mod budget;
@@ -56,6 +57,7 @@ mod turned;
 mod welded;
 mod wood;
 
+pub use bare::{Held, OrganBox, Room, TakePlaces};
 pub use blocks::TakeAlone;
 pub use boxes::Boxing;
 pub use budget::{TooFew, fitting, nearest};
@@ -87,7 +89,7 @@ pub use solid::{Solid, Undrawn};
 pub use stem::Stems;
 pub use stl::write_stl;
 pub use texture::{MOST_PICTURE_BYTES, MOST_PIXELS, Picture, PictureFault, Texture, Textures};
-pub use thinned::{MOST_LARGER, Thinned, organ_number};
+pub use thinned::{ClassSums, MOST_LARGER, Thinned, organ_number};
 pub use tube::Frustum;
 
 use phytomer_looks::place_of_own;

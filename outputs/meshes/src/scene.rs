@@ -16,7 +16,7 @@ use super::organ_base::organ_base;
 use super::outline::{self, OrganForm, Outlines, OwnForm, Shown};
 use super::stem::Stems;
 use super::wood::Wood;
-use super::{About, Joints, MeshOptions, Tolerance, colour};
+use super::{About, Joints, MeshOptions, Thinned, Tolerance, colour};
 use phytomer_looks::Paints;
 use phytomer_sim::clock::Tick;
 use phytomer_sim::plant::{NodeId, OrganId, Plant};
@@ -99,6 +99,11 @@ impl<'a> Scene<'a> {
     /// The same scene with its wood drawn within a tolerance.
     pub fn within(&self, tolerance: Tolerance) -> Self {
         Self::new(self.plant, self.age, &MeshOptions { tolerance: Some(tolerance), ..self.options.clone() })
+    }
+
+    /// Draws fewer or more of its organs.
+    pub fn thin(&mut self, thinned: Option<Thinned>) {
+        self.options.thinned = thinned;
     }
 
     /// How it is drawn.
@@ -344,15 +349,21 @@ impl<'a> Scene<'a> {
     }
 
     /// The placement of an organ, with its size at its age, and with the fullness that gives it the area in the tables.
-    fn placement(&self, organ: OrganId, shape: &FormMesh) -> Placement {
+    pub(super) fn placement(&self, organ: OrganId, shape: &FormMesh) -> Placement {
         let frame = organ_base(self.plant, organ, self.age);
         let organs = &self.plant.organs;
         let share = self.share(organ);
         let full = [organs.length[organ.index()], organs.width[organ.index()]];
-        // An organ expands in proportion, so its fullness is that of its full size.
-        let fullness = shape.fullness(full, organs.area[organ.index()]);
+        let fullness = self.fullness(organ, shape);
         let size = full.map(|size| size * share);
         Placement { base: frame.base, heading: frame.heading, up: frame.up, size, fullness }
+    }
+
+    /// The fullness of an organ in a form. An organ expands in proportion, so its fullness is that of its full size.
+    #[inline]
+    pub(super) fn fullness(&self, organ: OrganId, shape: &FormMesh) -> f32 {
+        let (organs, place) = (&self.plant.organs, organ.index());
+        shape.fullness([organs.length[place], organs.width[place]], organs.area[place])
     }
 
     /// The length and the area of the triangle that stands for an organ; one without an area fills half of its box.

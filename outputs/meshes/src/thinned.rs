@@ -31,24 +31,13 @@ impl Thinned {
         if share >= 1.0 {
             return None;
         }
-        let mut sums = [[0.0_f64; 2]; CLASSES.len()];
-        let mut counts = [[0_u64; 2]; CLASSES.len()];
+        let mut sums = ClassSums::default();
         for organ in (0..plant.organs.len()).map(|organ| OrganId(organ as u32)) {
-            let Some(class) = class_of(plant, organ).filter(|_| plant.organ_stands(organ, age)) else { continue };
-            let area: f64 = plant.organ_area(organ, age);
-            let kept = usize::from(organ_number(plant, organ) < share);
-            // The sum of those that are kept is a part of the sum of all.
-            for k in 0..=kept {
-                sums[class][k] += area;
-                counts[class][k] += 1;
+            if plant.organ_stands(organ, age) {
+                sums.add((plant, age), organ, organ_number(plant, organ) < share);
             }
         }
-        let larger = std::array::from_fn(|class| match (sums[class], counts[class]) {
-            ([all, kept], _) if kept > 0.0 => all / kept,
-            (_, [all, kept]) if kept > 0 => all as f64 / kept as f64,
-            _ => 1.0,
-        });
-        Some(Self { share, larger: larger.map(|k: f64| k.clamp(1.0, MOST_LARGER)) })
+        sums.thinned(share)
     }
 
     /// What a file says of them.
@@ -61,16 +50,53 @@ impl Thinned {
         )
     }
 
+    /// Whether an organ is one of those that become fewer.
+    #[inline]
+    pub fn concerns(plant: &Plant, organ: OrganId) -> bool {
+        class_of(plant, organ).is_some()
+    }
+
     /// Whether an organ is kept.
     #[inline]
     pub fn keeps(&self, plant: &Plant, organ: OrganId) -> bool {
-        class_of(plant, organ).is_none() || organ_number(plant, organ) < self.share
+        !Self::concerns(plant, organ) || organ_number(plant, organ) < self.share
     }
 
     /// The factor of its sizes.
     #[inline]
     pub fn factor(&self, plant: &Plant, organ: OrganId) -> f32 {
         class_of(plant, organ).map_or(1.0, |class| self.larger[class].sqrt() as f32)
+    }
+}
+
+/// The areas and the numbers of the organs of each class: of all, and of those that are kept.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct ClassSums {
+    areas: [[f64; 2]; CLASSES.len()],
+    counts: [[u64; 2]; CLASSES.len()],
+}
+
+impl ClassSums {
+    /// Adds an organ of a plant at an age, which is kept or not.
+    #[inline]
+    pub fn add(&mut self, (plant, age): (&Plant, Tick), organ: OrganId, kept: bool) {
+        let Some(class) = class_of(plant, organ) else { return };
+        let area: f64 = plant.organ_area(organ, age);
+        // The sum of those that are kept is a part of the sum of all.
+        for k in 0..=usize::from(kept) {
+            self.areas[class][k] += area;
+            self.counts[class][k] += 1;
+        }
+    }
+
+    /// The organs of which about `share` are kept; `None` where all are.
+    pub fn thinned(&self, share: f64) -> Option<Thinned> {
+        let larger = std::array::from_fn(|class| match (self.areas[class], self.counts[class]) {
+            ([all, kept], _) if kept > 0.0 => all / kept,
+            (_, [all, kept]) if kept > 0 => all as f64 / kept as f64,
+            _ => 1.0,
+        });
+        (share < 1.0).then(|| Thinned { share, larger: larger.map(|k: f64| k.clamp(1.0, MOST_LARGER)) })
     }
 }
 

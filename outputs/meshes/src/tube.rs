@@ -8,6 +8,7 @@
 //! (n sin 2π/n)) radii from the axis line, 1.054 for eight sides.
 
 use super::chunk::{Tag, Vertex};
+use glam::Vec3;
 use phytomer_sim::math::{sin, sincos};
 
 /// An internode as a frustum, in metres and unit vectors.
@@ -78,6 +79,20 @@ impl Tube {
     /// The triangles of a tube, by the indices of its own vertices, counterclockwise from outside.
     pub fn faces(&self) -> &[[u32; 3]] {
         &self.faces
+    }
+
+    /// Replaces `rings` by the places of the corners at its base and at its tip.
+    #[inline]
+    pub fn rings(&self, frustum: &Frustum, rings: &mut [Vec<Vec3>; 2]) {
+        let [base, heading, up] = [frustum.base, frustum.heading, frustum.up].map(Vec3::from_array);
+        let side = heading.cross(up);
+        let middles = [base, base + frustum.length * heading];
+        for ((ring, middle), radius) in rings.iter_mut().zip(middles).zip(frustum.radii) {
+            let radius = radius * self.reach;
+            ring.clear();
+            let corners = &self.corners[..self.corners.len() - 1];
+            ring.extend(corners.iter().map(|[cos, sin, _]| middle + radius * (*cos * up + *sin * side)));
+        }
     }
 
     /// Writes the vertices of one tube; `out` must have exactly [`Tube::vertices`] places.

@@ -28,6 +28,14 @@ const FREE: u32 = 4;
 const AROUND: usize = 4;
 /// How often the bounds are found anew.
 const ROUNDS: usize = 12;
+/// The difference of areas above which the bounds are sought together.
+const MOST_APART: f64 = 0.01;
+/// How far a bound is moved to see what that changes.
+const MOVED: f64 = 8.0;
+/// The steps of a bound that are tried at the end.
+const STEPS: [f64; 6] = [-5.0, -2.0, -1.0, 1.0, 2.0, 5.0];
+/// How often a step that makes nothing better is halved.
+const HALVINGS: i32 = 5;
 /// How fast opacity rises with the rank.
 const STEEP: i32 = 4;
 /// The least opacity, of 255, that is more than half.
@@ -60,8 +68,16 @@ struct Tile {
 pub fn cards(scene: &Scene) -> Option<(Cards, Apart)> {
     let look = Look::around(scene)?;
     let tiles: Vec<Tile> = (0..DRAWN).map(|side| look.tile(scene, side)).collect();
-    let bounds = look.bounds(&tiles);
-    let apart = look.apart(&tiles, &bounds);
+    let by_turns = look.bounds(&tiles);
+    let (mut bounds, mut apart) = (by_turns, look.apart(&tiles, &by_turns));
+    if apart.area > MOST_APART {
+        // By turns some cards have taken all and left nothing to others.
+        let together = look.bounds_together(&tiles);
+        let found = look.apart(&tiles, &together);
+        if found.area < apart.area {
+            (bounds, apart) = (together, found);
+        }
+    }
     let (colours, normals) = look.atlas(&tiles, &bounds);
     let cards = (0..DRAWN).map(|side| look.card(side)).collect();
     Some((Cards { cards, colours, normals }, apart))
@@ -181,6 +197,55 @@ impl Look {
         bounds
     }
 
+    /// The bounds with which each side shows the area that the plant covers from there, sought together from one common
+    /// bound by Newton's method, each step as short as it must be to come nearer.
+    fn bounds_together(&self, tiles: &[Tile]) -> [u8; DRAWN] {
+        let wanted: [f64; DRAWN] =
+            std::array::from_fn(|side| f64::from(tiles[side].covered.iter().sum::<f32>().max(1.0)));
+        let whole = |bounds: [f64; DRAWN]| bounds.map(|bound| bound.round().clamp(0.0, 255.0) as u8);
+        let off = |bounds: [f64; DRAWN]| -> [f64; DRAWN] {
+            std::array::from_fn(|side| f64::from(self.area(tiles, &whole(bounds), side)) / wanted[side] - 1.0)
+        };
+        let worst = |off: [f64; DRAWN]| off.iter().fold(0.0_f64, |worst, off| worst.max(off.abs()));
+        let (mut low, mut high) = (0.0, 255.0);
+        while high - low > 1.0 {
+            let middle = 0.5 * (low + high);
+            if off([middle; DRAWN]).iter().sum::<f64>() > 0.0 { low = middle } else { high = middle }
+        }
+        let mut bounds = [high; DRAWN];
+        for _ in 0..ROUNDS {
+            let now = off(bounds);
+            let slopes: [[f64; DRAWN]; DRAWN] = std::array::from_fn(|moved| {
+                let by = if bounds[moved] > 128.0 { -MOVED } else { MOVED };
+                let mut beside = bounds;
+                beside[moved] += by;
+                let beside = off(beside);
+                std::array::from_fn(|side| (beside[side] - now[side]) / by)
+            });
+            let Some(step) = solved(&slopes, now) else { break };
+            let shorter = (0..=HALVINGS).map(|halving| {
+                let part = 1.0 / f64::from(1 << halving);
+                std::array::from_fn(|side| (bounds[side] - part * step[side]).clamp(0.0, 255.0))
+            });
+            let Some(nearer) = shorter.into_iter().find(|tried| worst(off(*tried)) < worst(now)) else { break };
+            bounds = nearer;
+        }
+        // Ranks are whole numbers, so that the last steps are tried one by one.
+        let mut found = (worst(off(bounds)), whole(bounds).map(f64::from));
+        for _ in 0..ROUNDS {
+            let steps = (0..DRAWN).flat_map(|side| STEPS.map(|step| (side, step)));
+            let tried = steps.map(|(side, step)| {
+                let mut bounds = found.1;
+                bounds[side] = (bounds[side] + step).clamp(0.0, 255.0);
+                (worst(off(bounds)), bounds)
+            });
+            let best = tried.min_by(|one, other| one.0.total_cmp(&other.0)).filter(|best| best.0 < found.0);
+            let Some(best) = best else { break };
+            found = best;
+        }
+        whole(found.1)
+    }
+
     /// How far the outlines are, from the side where they are farthest.
     fn apart(&self, tiles: &[Tile], bounds: &[u8; DRAWN]) -> Apart {
         let [width, height] = self.size;
@@ -235,6 +300,26 @@ impl Look {
         let size = self.size.map(|side| 2 * side);
         (png_of(size, ColorType::Rgba, &colours.concat()), png_of(size, ColorType::Rgb, &normals.concat()))
     }
+}
+
+/// The factors of columns whose sum is a vector, by elimination with the largest pivots; `None` where there are none.
+fn solved(columns: &[[f64; DRAWN]; DRAWN], sum: [f64; DRAWN]) -> Option<[f64; DRAWN]> {
+    // A row for each equation, with its sum at the end.
+    let row = |row: usize| std::array::from_fn(|k| if k < DRAWN { columns[k][row] } else { sum[row] });
+    let mut rows: [[f64; DRAWN + 1]; DRAWN] = std::array::from_fn(row);
+    for pivot in 0..DRAWN {
+        let largest = (pivot..DRAWN).max_by(|a, b| rows[*a][pivot].abs().total_cmp(&rows[*b][pivot].abs()))?;
+        rows.swap(pivot, largest);
+        let of = rows[pivot];
+        if of[pivot].abs() < 1e-9 {
+            return None;
+        }
+        for (_, row) in rows.iter_mut().enumerate().filter(|(place, _)| *place != pivot) {
+            let times = row[pivot] / of[pivot];
+            (0..=DRAWN).for_each(|k| row[k] -= times * of[k]);
+        }
+    }
+    Some(std::array::from_fn(|k| rows[k][DRAWN] / rows[k][k]))
 }
 
 /// Draws a mesh on a film: the depths, then what is nearest.

@@ -8,15 +8,23 @@
 //! an octave; the number of triangles falls with them nearly as a power, so that a few trials find one that fits, and
 //! the same wherever it is asked. Absent: how levels are written, and cards, which stand for the last.
 
+use super::costs::Costs;
 use super::sides::{Apart, Outline, Sides};
-use phytomer_meshes::{Keeping, MeshOptions, Scene, Thinned, Tolerance, organ_number};
+use phytomer_meshes::{Keeping, MeshOptions, Scene, Tolerance};
 use phytomer_sim::clock::Tick;
 use phytomer_sim::math::{exp2, log2};
 use phytomer_sim::plant::Plant;
+use std::collections::BTreeMap;
 
 /// The largest difference between the areas of outlines, as a share. What files promise is 3 %; the rest is for what
 /// the samples miss.
 pub const MOST_APART: f64 = 0.025;
+
+/// The difference that is aimed at between a mesh that holds and one that does not.
+const AIMED_APART: f64 = 0.02;
+
+/// The most outlines that are drawn to find the widest tolerance.
+const LOOKS: u32 = 5;
 
 /// The samples along the longest side of an outline: at most a pixel of a picture of a plant at which levels change.
 const SAMPLES: u32 = 480;
@@ -34,11 +42,15 @@ const AIM: f64 = 0.25;
 /// The part of them that it has at most, else it is none.
 const WORTH: f64 = 0.8;
 
+/// The largest tolerance, in longest sides of the plant: stems that begin so far beside the one that they go on from
+/// are joined within sixteen times the distance.
+const OF_LONGEST: f32 = 16.0;
+
 /// The share of its radius by which the radius of wood may be off.
 const OF_RADIUS: f32 = 0.5;
 
 /// The part of the screen that the plant covers where the second level takes over.
-const SCREEN: f64 = 0.25;
+pub const SCREEN: f64 = 0.25;
 
 /// A level.
 #[derive(Debug, Clone)]
@@ -72,7 +84,7 @@ pub struct TooCoarse {
 /// # Errors
 /// Where a level cannot have as few triangles as it may have.
 pub fn levels(plant: &Plant, age: Tick, first: &MeshOptions, most: &[Option<u64>]) -> Result<Vec<Level>, TooCoarse> {
-    let search = Search::of(plant, age, first);
+    let mut search = Search::of(plant, age, first);
     let mut found = vec![search.first()];
     for (level, most) in (1..).zip(most) {
         let before = &found[level - 1];
@@ -123,18 +135,46 @@ struct Search<'p> {
     options: &'p MeshOptions,
     outline: Option<(Sides, Outline)>,
     faces: u64,
-    /// The step of the tolerance of the first level.
+    /// The distance of each step, metres.
+    distances: Vec<f32>,
+    /// The step of the tolerance of the first level, and that from which on all axes are straight.
     step: u32,
+    last: u32,
+    costs: Costs,
+    /// The triangles of the wood at the steps that were looked at.
+    wood_faces: BTreeMap<u32, u64>,
+    /// The step that was looked at last.
+    looked: Option<Looked<'p>>,
+    /// The outline of all organs with so many triangles.
+    organs: Option<(u64, Outline)>,
+}
+
+/// The plant at a step, and the outline of its wood where that was drawn.
+struct Looked<'p> {
+    step: u32,
+    scene: Scene<'p>,
+    wood: Option<Outline>,
 }
 
 impl<'p> Search<'p> {
     fn of(plant: &'p Plant, age: Tick, options: &'p MeshOptions) -> Self {
-        let scene = Scene::new(plant, age, options);
-        let sides = Sides::around(&scene, SAMPLES);
-        let outline = sides.map(|sides| (sides.clone(), sides.of(&scene)));
+        let distance = |step: u32| Tolerance::LEAST * exp2(f64::from(step) / f64::from(STEPS)) as f32;
+        let distances: Vec<f32> = (0..=LAST).map(distance).collect();
+        let scene = Scene::new(plant, age, &plain(options));
+        let full = MeshOptions { tolerance: None, ..plain(options) };
+        let costs = match options.tolerance {
+            None => Costs::of(&scene, &distances),
+            Some(_) => Costs::of(&Scene::new(plant, age, &full), &distances),
+        };
+        let sides = Sides::around(&scene, &costs, SAMPLES);
+        let farthest = sides.as_ref().map_or(0.0, Sides::longest) * OF_LONGEST;
+        let outline = sides.map(|sides| (sides.clone(), sides.of(&sides.of_wood(&scene), &scene, &costs)));
+        let last = distances.partition_point(|distance| *distance < farthest).clamp(1, LAST as usize) as u32;
         let octaves = options.tolerance.map_or(0.0, |own| log2(f64::from(own.distance / Tolerance::LEAST)));
-        let step = (octaves * f64::from(STEPS)).clamp(0.0, f64::from(LAST)) as u32;
-        Self { plant, age, options, outline, faces: scene.counts().faces, step }
+        let step = (octaves * f64::from(STEPS)).clamp(0.0, f64::from(last)) as u32;
+        let faces = scene.counts().faces;
+        let (wood_faces, looked, organs) = (BTreeMap::new(), None, None);
+        Self { plant, age, options, outline, faces, distances, step, last, costs, wood_faces, looked, organs }
     }
 
     fn first(&self) -> Tried {
@@ -142,48 +182,73 @@ impl<'p> Search<'p> {
         Tried { step, share: 1.0, options, faces: self.faces, apart: Apart::default() }
     }
 
-    /// The options of a step with a share of the organs.
-    fn options(&self, step: u32, share: f64) -> MeshOptions {
-        let distance = Tolerance::LEAST * exp2(f64::from(step) / f64::from(STEPS)) as f32;
+    /// The tolerance of a step.
+    fn tolerance(&self, step: u32) -> Tolerance {
         // Wood is seen as wide as the first level draws it.
         let keeps = if self.options.tolerance.is_some() { Keeping::Section } else { Keeping::Tube(self.options.sides) };
-        let tolerance = Tolerance { share: OF_RADIUS, keeps, organs: true, ..Tolerance::of(distance) };
-        let thinned = Thinned::of(self.plant, self.age, share);
-        MeshOptions { tolerance: Some(tolerance), thinned, ..self.options.clone() }
+        let distance = self.distances[step as usize];
+        Tolerance { share: OF_RADIUS, keeps, organs: true, ..Tolerance::of(distance) }
     }
 
-    fn count(&self, step: u32, share: f64) -> Tried {
-        let options = self.options(step, share);
-        let faces = Scene::new(self.plant, self.age, &options).counts().faces;
-        Tried { step, share, options, faces, apart: Apart::default() }
+    /// The plant at a step.
+    fn look(&mut self, step: u32) -> &mut Looked<'p> {
+        let (plant, age) = (self.plant, self.age);
+        let options = MeshOptions { tolerance: Some(self.tolerance(step)), ..plain(self.options) };
+        let looked = self.looked.take().filter(|looked| looked.step == step);
+        let new = || Looked { step, scene: Scene::new(plant, age, &options), wood: None };
+        self.looked.insert(looked.unwrap_or_else(new))
     }
 
-    /// Looks at the outline of a mesh, and tells whether it holds.
-    fn holds(&self, tried: &mut Tried) -> bool {
-        if let Some((sides, first)) = &self.outline {
-            tried.apart = sides.of(&Scene::new(self.plant, self.age, &tried.options)).apart(first);
-        }
+    fn count(&mut self, step: u32, share: f64) -> Tried {
+        let of_wood = match self.wood_faces.get(&step) {
+            Some(faces) => *faces,
+            None => self.look(step).scene.wood_faces(),
+        };
+        self.wood_faces.insert(step, of_wood);
+        let (tolerance, thinned) = (Some(self.tolerance(step)), self.costs.thinned((self.plant, self.age), share));
+        let options = MeshOptions { tolerance, thinned, ..self.options.clone() };
+        Tried { step, share, options, faces: of_wood + self.costs.faces(step, share), apart: Apart::default() }
+    }
+
+    /// Looks at the outline of a mesh, and tells whether it holds. Wood is drawn once for each step, and all organs
+    /// once for all steps with the same forms.
+    fn holds(&mut self, tried: &mut Tried) -> bool {
+        self.look(tried.step);
+        let Self { outline: Some((sides, first)), looked: Some(looked), costs, organs, .. } = self else { return true };
+        let Looked { scene, wood, .. } = looked;
+        let wood = wood.get_or_insert_with(|| sides.of_wood(scene));
+        scene.thin(tried.options.thinned);
+        let outline = if tried.options.thinned.is_some() {
+            sides.of(wood, scene, costs)
+        } else {
+            // Forms only become coarser, so that as many triangles are the same forms.
+            let faces = costs.faces(tried.step, 1.0);
+            let known = organs.take().filter(|known| known.0 == faces);
+            let known = known.unwrap_or_else(|| (faces, sides.of(&Outline::default(), scene, costs)));
+            organs.insert(known).1.with(wood)
+        };
+        tried.apart = outline.apart(first);
         tried.apart.area <= MOST_APART
     }
 
     /// The next level after one, of at most so many triangles.
-    fn coarser(&self, before: &Tried, most: u64) -> Found {
+    fn coarser(&mut self, before: &Tried, most: u64) -> Found {
         let mut widest = before.clone();
         if before.share >= 1.0 {
-            let mut beyond = LAST;
+            let mut beyond = None;
             if let Some(mut fits) = self.fitting(before, most) {
                 if self.holds(&mut fits) {
                     return Found::Fits(fits);
                 }
-                beyond = fits.step;
+                beyond = Some(fits);
             }
             widest = self.widest(before, beyond);
         }
-        self.thinner(widest, most)
+        self.thinner(widest, most, before.share < 1.0)
     }
 
     /// A mesh of all organs that has at most so many triangles, and not many fewer; `None` where there is none.
-    fn fitting(&self, before: &Tried, most: u64) -> Option<Tried> {
+    fn fitting(&mut self, before: &Tried, most: u64) -> Option<Tried> {
         let (mut low, mut high) = ((before.step, before.faces), None::<Tried>);
         for trial in 0..TRIALS {
             let step = match &high {
@@ -196,10 +261,10 @@ impl<'p> Search<'p> {
                     low.0 + (part * f64::from(high.step - low.0)) as u32
                 }
             };
-            if step >= LAST && low.0 >= LAST || high.as_ref().is_some_and(|high| high.step <= low.0 + 1) {
+            if step >= self.last && low.0 >= self.last || high.as_ref().is_some_and(|high| high.step <= low.0 + 1) {
                 break;
             }
-            let tried = self.count(step.clamp(low.0 + 1, LAST), 1.0);
+            let tried = self.count(step.clamp(low.0 + 1, self.last), 1.0);
             if tried.faces > most {
                 low = (tried.step, tried.faces);
             } else if tried.faces as f64 >= ENOUGH * most as f64 {
@@ -211,49 +276,76 @@ impl<'p> Search<'p> {
         high
     }
 
-    /// The widest tolerance below a step with which the outline of all organs holds, to an octave or so.
-    fn widest(&self, before: &Tried, beyond: u32) -> Tried {
+    /// The widest tolerance with which the outline of all organs holds, to an octave or so, between one that holds and
+    /// one that does not; without that one the widest of all is tried first.
+    fn widest(&mut self, before: &Tried, beyond: Option<Tried>) -> Tried {
         let mut widest = before.clone();
-        let (mut low, mut high) = (before.step, beyond);
-        while high > low + STEPS / 2 {
-            let step = low.midpoint(high);
-            let mut tried = self.count(step, 1.0);
-            if self.holds(&mut tried) {
-                (low, widest) = (step, tried);
-            } else {
-                high = step;
+        let mut beyond = match beyond {
+            Some(beyond) => beyond,
+            None if before.step < self.last => {
+                let mut tried = self.count(self.last, 1.0);
+                if self.holds(&mut tried) {
+                    return tried;
+                }
+                tried
             }
+            None => return widest,
+        };
+        for _ in 0..LOOKS {
+            if beyond.step <= widest.step + STEPS / 2 {
+                break;
+            }
+            let mut tried = self.count(widest.step.midpoint(beyond.step), 1.0);
+            if self.holds(&mut tried) { widest = tried } else { beyond = tried }
         }
         widest
     }
 
     /// A mesh of fewer organs that has at most so many triangles.
-    fn thinner(&self, widest: Tried, most: u64) -> Found {
-        let scene = Scene::new(self.plant, self.age, &widest.options);
-        let mut organs: Vec<(f64, u64)> =
-            scene.organs().map(|organ| (organ_number(self.plant, organ), scene.faces_of(organ))).collect();
-        organs.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
-        let of_organs: u64 = organs.iter().map(|organ| organ.1).sum();
-        let mut room = most.saturating_sub(widest.faces - of_organs);
-        let first_left_out = organs.iter().find(|(_, faces)| {
-            let fits = *faces <= room;
-            room = room.saturating_sub(*faces);
-            !fits
-        });
-        let share = first_left_out.map_or(widest.share, |(number, _)| *number);
-        if widest.faces - of_organs <= most {
-            let mut tried = self.count(widest.step, share);
+    fn thinner(&mut self, widest: Tried, most: u64, is_at_bound: bool) -> Found {
+        let step = widest.step;
+        let of_wood = widest.faces - self.faces_of_organs(&widest);
+        let share = self.costs.share_of(step, most.saturating_sub(of_wood)).min(widest.share);
+        let (mut low, mut least) = ((share, None), widest);
+        if of_wood <= most {
+            let mut tried = self.count(step, share);
             if tried.faces <= most && self.holds(&mut tried) {
                 return Found::Fits(tried);
             }
+            low.1 = Some(tried.apart);
         }
-        let (mut low, mut least) = (share, widest);
-        for _ in 0..4 {
-            let mut tried = self.count(least.step, 0.5 * (low + least.share));
-            if self.holds(&mut tried) { least = tried } else { low = tried.share }
+        // Where the level before was at its bound already there is hardly anything to find.
+        let looks = if is_at_bound { 2 } else { 3 };
+        for look in 0..looks {
+            // Differences may grow and then become less as organs are fewer, so that the middle is looked at too.
+            let known = low.1.filter(|_| look == 0);
+            let part = known.map_or(0.5, |apart| part_that_holds(&apart, &least.apart));
+            let share = Costs::in_parts(low.0 + part * (least.share - low.0));
+            let mut tried = self.count(step, share);
+            if self.holds(&mut tried) { least = tried } else { low = (tried.share, Some(tried.apart)) }
         }
         Found::Least(least)
     }
+
+    fn faces_of_organs(&self, tried: &Tried) -> u64 {
+        self.costs.faces(tried.step, tried.share)
+    }
+}
+
+/// The same without what no outline shows.
+fn plain(options: &MeshOptions) -> MeshOptions {
+    MeshOptions { colours: None, swings: None, attributes: false, crown_normals: false, ..options.clone() }
+}
+
+/// Where between an outline that does not hold and one that does lies the first that does, if the differences from
+/// each side change evenly: the part of the way.
+fn part_that_holds(low: &Apart, high: &Apart) -> f64 {
+    let sides = low.by_side.iter().zip(&high.by_side).map(|(low, high)| {
+        let wanted = low.clamp(-AIMED_APART, AIMED_APART);
+        let way = high - low;
+        if way.abs() > 1e-9 { (wanted - low) / way } else { 0.0 }
+    });
+    sides.fold(0.0, f64::max).clamp(0.1, 0.75)
 }
 
 /// How many octaves a number is above another.

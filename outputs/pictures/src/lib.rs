@@ -14,6 +14,7 @@ mod caption;
 pub mod cards;
 mod cast;
 mod colouring;
+mod costs;
 mod develop;
 mod draw;
 mod extent;
@@ -32,6 +33,7 @@ mod shadow;
 mod sides;
 pub mod silhouette;
 mod sky;
+mod spans;
 mod survey;
 #[cfg(test)]
 mod tests;

@@ -184,21 +184,21 @@ impl Side {
 
 /// The least whole number that is not below `x`.
 #[inline]
-fn above(x: f32) -> i32 {
+pub fn above(x: f32) -> i32 {
     let whole = x as i32;
     whole.saturating_add(i32::from(x > whole as f32))
 }
 
 /// The largest whole number that is not above `x`.
 #[inline]
-fn below(x: f32) -> i32 {
+pub fn below(x: f32) -> i32 {
     let whole = x as i32;
     whole.saturating_sub(i32::from(x < whole as f32))
 }
 
 /// The whole numbers of `within` from `low` to `high`, both included; `None` where there are none.
 #[inline]
-fn between(low: f32, high: f32, within: &Range<u32>) -> Option<Range<u32>> {
+pub fn between(low: f32, high: f32, within: &Range<u32>) -> Option<Range<u32>> {
     let [first, last] = [above(low).max(within.start as i32), below(high).min(within.end as i32 - 1)];
     // A comparison with NaN is false.
     (low <= high && first <= last).then(|| first as u32..last as u32 + 1)

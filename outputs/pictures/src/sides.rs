@@ -1,39 +1,56 @@
-//! The outline of a plant from eight sides, of the compass, as the rasteriser of pictures draws it.
+//! The outline of a plant from eight sides, of the compass, as samples that something covers.
 //!
 //! The projection is parallel and level, as from far away; so the outline from a side is that from the opposite one,
 //! mirrored, and four are drawn for the eight. A sample is covered or not, whatever covers it. Samples stand on a
 //! lattice of the plant that is compared with, and all that is compared is drawn on the same lattice, so that the error
-//! of counting samples, a thousandth or so (`silhouette`), mostly cancels. Absent: what has which outline.
+//! of counting samples, a thousandth or so (`silhouette`), mostly cancels. Absent: how samples are covered (`spans`),
+//! and what has which outline.
 
+use super::costs::Costs;
 use super::gaze::Gaze;
-use super::raster::{UPRIGHT, Window, cover};
-use glam::Vec3;
-use phytomer_meshes::{Mesh, Scene};
+pub use super::spans::DRAWN;
+use super::spans::{Lattice, Pen, Sheet};
+use glam::{Vec3, Vec4};
+use phytomer_meshes::{Held, Room, Scene, TakePlaces};
 use phytomer_sim::plant::NodeId;
 use rayon::prelude::*;
 use std::f32::consts::FRAC_PI_4;
 
-/// The directions that are drawn: each is that of two of the eight sides.
-pub const DRAWN: usize = 4;
-
 /// The room around the plant, as a share of its extent: organs that stand for others are larger.
 const ROOM: f32 = 0.1;
+
+/// How many columns there are for a row: they cost hardly more.
+const COLUMNS: f32 = 2.0;
+
+/// The corners of a box.
+const CORNERS: [[f32; 3]; 8] = [
+    [-1.0, -1.0, -1.0],
+    [1.0, -1.0, -1.0],
+    [-1.0, 1.0, -1.0],
+    [1.0, 1.0, -1.0],
+    [-1.0, -1.0, 1.0],
+    [1.0, -1.0, 1.0],
+    [-1.0, 1.0, 1.0],
+    [1.0, 1.0, 1.0],
+];
+
+/// The organs of a block.
+const BLOCK: usize = 256;
 
 /// The lattices of four directions.
 #[derive(Debug, Clone)]
 pub struct Sides {
-    gazes: [Gaze; DRAWN],
-    windows: [Window; DRAWN],
-    /// The place of the first sample of each direction, to the right and up, metres.
-    corners: [[f32; 2]; DRAWN],
-    /// Samples a metre.
-    scale: f32,
+    lattice: Lattice,
+    /// The longest side of the plant, metres.
+    longest: f32,
 }
 
 /// The samples that something covers from each direction.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Outline {
-    rows: [Vec<u64>; DRAWN],
+    /// For each row and each direction so many words.
+    bits: Vec<u64>,
+    words: usize,
 }
 
 /// How far an outline is from another, as shares of the covered area of the other.
@@ -43,102 +60,161 @@ pub struct Apart {
     pub area: f64,
     /// The largest area that one covers and the other does not.
     pub either: f64,
+    /// The difference of the covered areas for each direction, less than 0 where it is smaller.
+    pub by_side: [f64; DRAWN],
 }
 
 impl Sides {
     /// The lattices around a plant, with so many samples along the longest side; `None` where nothing of it has an
     /// extent.
-    pub fn around(scene: &Scene, samples: u32) -> Option<Self> {
+    pub fn around(scene: &Scene, costs: &Costs, samples: u32) -> Option<Self> {
         let gazes: [Gaze; DRAWN] = std::array::from_fn(|side| Gaze::towards(side as f32 * FRAC_PI_4, 0.0));
-        let mut boxes = [[f32::INFINITY, f32::NEG_INFINITY, f32::INFINITY, f32::NEG_INFINITY]; DRAWN];
-        each_ball(scene, &mut |at, radius| {
-            for (bounds, gaze) in boxes.iter_mut().zip(&gazes) {
-                let [x, y] = [at.dot(gaze.right), at.dot(gaze.up)];
-                let [left, right, low, high] = *bounds;
-                *bounds = [left.min(x - radius), right.max(x + radius), low.min(y - radius), high.max(y + radius)];
-            }
-        });
-        let extents = boxes.map(|[left, right, low, high]| [right - left, high - low]);
-        let longest = extents.iter().flatten().fold(0.0_f32, |most, extent| most.max(*extent));
+        let along = [Vec3::X, Vec3::Y].map(|axis| Vec4::from_array(gazes.map(|gaze| gaze.right.dot(axis))));
+        let none = || Bounds {
+            along,
+            low: Vec4::INFINITY,
+            high: Vec4::NEG_INFINITY,
+            heights: [f32::INFINITY, f32::NEG_INFINITY],
+        };
+        let measured = |(mut bounds, mut room): (Bounds, Room), block: usize| {
+            places((scene, costs), block, &mut room, &mut bounds);
+            (bounds, room)
+        };
+        let of_blocks = (0..blocks(scene, costs)).into_par_iter().fold(|| (none(), Room::default()), measured);
+        let Bounds { low, high, heights: [foot, top], .. } =
+            of_blocks.map(|(bounds, _)| bounds).reduce(none, Bounds::with);
+        let (wide, tall) = (high - low, top - foot);
+        let longest = wide.max_element().max(tall);
         if !(longest > 0.0 && longest.is_finite()) {
             return None;
         }
-        let scale = samples as f32 / (longest * (1.0 + 2.0 * ROOM));
-        let room = ROOM * longest;
-        let window = |[wide, high]: [f32; 2]| {
-            let [columns, rows] = [wide, high].map(|extent| ((extent + 2.0 * room) * scale).ceil().max(1.0) as u32);
-            Window { columns: 0..columns, rows: 0..rows, shifts: UPRIGHT }
+        let (scale, room) = (samples as f32 / (longest * (1.0 + 2.0 * ROOM)), ROOM * longest);
+        let wide_scale = COLUMNS * scale;
+        let count = |extent: f32, scale: f32| ((extent + 2.0 * room) * scale).ceil().max(1.0) as u32;
+        let lattice = Lattice {
+            along: along.map(|axis| axis * wide_scale),
+            left: (low - room) * wide_scale,
+            top: (top + room) * scale,
+            scale,
+            columns: wide.to_array().map(|wide| count(wide, wide_scale)),
+            rows: count(tall, scale),
         };
-        let corners = boxes.map(|[left, _, _, high]| [left - room, high + room]);
-        Some(Self { gazes, windows: extents.map(window), corners, scale })
+        Some(Self { lattice, longest })
     }
 
-    /// The outline of a plant.
-    pub fn of(&self, scene: &Scene) -> Outline {
-        let none = || self.nothing();
-        let draw = |(mut mesh, mut outline): (Mesh, Outline), block: usize| {
-            scene.block(block, &mut mesh);
-            self.draw(&mesh, &mut outline);
-            (mesh, outline)
-        };
-        let drawn = (0..scene.blocks()).into_par_iter().fold(|| (Mesh::default(), none()), draw);
-        drawn.map(|(_, outline)| outline).reduce(none, Outline::with)
+    /// The longest side of the plant, metres.
+    pub fn longest(&self) -> f32 {
+        self.longest
     }
 
-    /// The outline of a mesh.
-    pub fn of_mesh(&self, mesh: &Mesh) -> Outline {
-        let mut outline = self.nothing();
-        self.draw(mesh, &mut outline);
-        outline
+    /// The outline of the wood of a plant.
+    pub fn of_wood(&self, scene: &Scene) -> Outline {
+        let sheet = Sheet::of(&self.lattice, &[]);
+        (0..wood_blocks(scene))
+            .into_par_iter()
+            .for_each_init(|| (Pen::new(&sheet), Room::default()), |(pen, room), block| scene.places(block, room, pen));
+        Outline { bits: sheet.into_bits(), words: self.lattice.words() }
     }
 
-    fn nothing(&self) -> Outline {
-        Outline { rows: self.windows.each_ref().map(|window| vec![0; window.len().div_ceil(64)]) }
+    /// The outline of a plant whose organs these are, with that of its wood.
+    pub fn of(&self, wood: &Outline, scene: &Scene, costs: &Costs) -> Outline {
+        let sheet = Sheet::of(&self.lattice, &wood.bits);
+        let blocks = wood_blocks(scene)..blocks(scene, costs);
+        blocks.into_par_iter().for_each_init(
+            || (Pen::new(&sheet), Room::default()),
+            |(pen, room), block| places((scene, costs), block, room, pen),
+        );
+        Outline { bits: sheet.into_bits(), words: self.lattice.words() }
+    }
+}
+
+/// The blocks of wood.
+fn wood_blocks(scene: &Scene) -> usize {
+    scene.blocks() - scene.organ_blocks()
+}
+
+/// The blocks of wood and of organs.
+fn blocks(scene: &Scene, costs: &Costs) -> usize {
+    wood_blocks(scene) + costs.len().div_ceil(BLOCK)
+}
+
+/// Tells the places of a block: first come those of wood.
+fn places((scene, costs): (&Scene, &Costs), block: usize, room: &mut Room, take: &mut dyn TakePlaces) {
+    match block.checked_sub(wood_blocks(scene)) {
+        None => scene.places(block, room, take),
+        Some(block) => costs.places(block * BLOCK..((block + 1) * BLOCK).min(costs.len()), scene, room, take),
+    }
+}
+
+/// The box of what is told, from each direction.
+#[derive(Debug, Clone, Copy)]
+struct Bounds {
+    along: [Vec4; 2],
+    low: Vec4,
+    high: Vec4,
+    heights: [f32; 2],
+}
+
+impl Bounds {
+    fn with(self, other: Self) -> Self {
+        let heights = [self.heights[0].min(other.heights[0]), self.heights[1].max(other.heights[1])];
+        Self { low: self.low.min(other.low), high: self.high.max(other.high), heights, ..self }
     }
 
-    fn draw(&self, mesh: &Mesh, outline: &mut Outline) {
-        let mut seen = Vec::with_capacity(mesh.vertices.len());
-        for side in 0..DRAWN {
-            let (gaze, window, [left, top]) = (&self.gazes[side], &self.windows[side], self.corners[side]);
-            seen.clear();
-            seen.extend(mesh.vertices.iter().map(|vertex| {
-                let at = Vec3::from_array(vertex.position());
-                let [x, y] = [at.dot(gaze.right) - left, top - at.dot(gaze.up)];
-                Vec3::new(x * self.scale, y * self.scale, 0.5)
-            }));
-            let rows = &mut outline.rows[side];
-            for face in &mesh.faces {
-                let corners = face.indices().map(|corner| seen[corner as usize]);
-                cover(&corners, window, |sample| rows[sample.index / 64] |= 1 << (sample.index % 64));
-            }
+    fn add(&mut self, at: Vec3) {
+        let seen = at.x * self.along[0] + at.y * self.along[1];
+        self.low = self.low.min(seen);
+        self.high = self.high.max(seen);
+        self.heights = [self.heights[0].min(at.z), self.heights[1].max(at.z)];
+    }
+}
+
+impl TakePlaces for Bounds {
+    fn wants(&mut self, held: &Held) -> bool {
+        for [x, y, z] in CORNERS {
+            self.add(held.middle + x * held.half[0] + y * held.half[1] + z * held.half[2]);
         }
+        false
+    }
+
+    fn tube(&mut self, rings: [&[Vec3]; 2]) {
+        rings.into_iter().flatten().for_each(|at| self.add(*at));
+    }
+
+    fn faces(&mut self, places: &[Vec3], _: &[[u32; 3]]) {
+        places.iter().for_each(|at| self.add(*at));
     }
 }
 
 impl Outline {
-    /// The samples that either covers.
-    fn with(mut self, other: Self) -> Self {
-        for (rows, others) in self.rows.iter_mut().zip(other.rows) {
-            rows.iter_mut().zip(others).for_each(|(row, other)| *row |= other);
-        }
-        self
+    /// What it or another on the same lattices covers.
+    pub fn with(&self, other: &Self) -> Self {
+        let bits = self.bits.iter().zip(&other.bits).map(|(one, other)| one | other).collect();
+        Self { bits, words: self.words }
     }
 
     /// The number of samples that are covered from each direction.
     pub fn covered(&self) -> [u64; DRAWN] {
-        self.rows.each_ref().map(|rows| rows.iter().map(|row| u64::from(row.count_ones())).sum())
+        self.count(|word| self.bits[word])
+    }
+
+    fn count(&self, bits: impl Fn(usize) -> u64) -> [u64; DRAWN] {
+        let mut counts = [0; DRAWN];
+        (0..self.bits.len()).for_each(|word| counts[word / self.words % DRAWN] += u64::from(bits(word).count_ones()));
+        counts
     }
 
     /// How far it is from the outline of what it stands for, on the same lattices.
     pub fn apart(&self, from: &Self) -> Apart {
         let (own, of) = (self.covered(), from.covered());
+        let either = self.count(|word| self.bits[word] ^ from.bits[word]);
         let mut apart = Apart::default();
         for side in 0..DRAWN {
-            let either: u32 =
-                self.rows[side].iter().zip(&from.rows[side]).map(|(one, other)| (one ^ other).count_ones()).sum();
             let over = 1.0 / (of[side].max(1) as f64);
-            apart.area = apart.area.max(own[side].abs_diff(of[side]) as f64 * over);
-            apart.either = apart.either.max(f64::from(either) * over);
+            let difference = (own[side] as f64 - of[side] as f64) * over;
+            apart.by_side[side] = difference;
+            apart.area = apart.area.max(difference.abs());
+            apart.either = apart.either.max(either[side] as f64 * over);
         }
         apart
     }

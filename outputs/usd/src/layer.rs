@@ -1,4 +1,4 @@
-//! What a USD layer is made of: prims in a tree, with attributes, relationships and connections.
+//! What a USD layer is made of: prims in a tree, with attributes, relationships, connections and variants.
 //!
 //! A [`Layer`] is written from its first prim to its last, and each attribute as a whole, so that memory holds one
 //! value at a time, or two. A value that changes is asked for by its number, once for each different value in a binary
@@ -122,6 +122,15 @@ impl List {
     }
 }
 
+/// A set of variants.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Variants<'a> {
+    /// The name of the set.
+    pub set: &'a str,
+    /// The names of the variants.
+    pub names: &'a [String],
+}
+
 /// A layer that is being written.
 pub trait Layer {
     /// Begins a prim of a type within the one that is open, with API schemas.
@@ -129,6 +138,19 @@ pub trait Layer {
     /// # Errors
     /// Those of the file, as of all that follows.
     fn begin(&mut self, of: &'static str, name: &str, schemas: &[&str]) -> io::Result<()>;
+
+    /// Begins a prim of a type within the one that is open, which has a set of variants, of which the first is chosen;
+    /// nothing else follows in it but these variants, and then the end of the set and of the prim.
+    ///
+    /// # Errors
+    /// Those of the file.
+    fn begin_varied(&mut self, of: &'static str, name: &str, variants: &Variants) -> io::Result<()>;
+
+    /// Begins a variant of the set that is open.
+    ///
+    /// # Errors
+    /// Those of the file.
+    fn begin_variant(&mut self, name: &str) -> io::Result<()>;
 
     /// Writes an attribute of the open prim.
     ///
@@ -142,7 +164,7 @@ pub trait Layer {
     /// Those of the file.
     fn relationship(&mut self, name: &str, targets: &[String]) -> io::Result<()>;
 
-    /// Ends the open prim.
+    /// Ends the open prim, variant or set of variants.
     ///
     /// # Errors
     /// Those of the file.

@@ -26,11 +26,11 @@ pub use course::Pace;
 pub use phytomer_life::{Member, Organs};
 pub use phytomer_meshes::Patched;
 pub use scene::{Each, Planted, Stand, Take, write_scene};
-pub use still::{write_plant, write_plot};
+pub use still::{write_levels, write_plant, write_plot};
 
 use binary::Binary;
 use course::Course;
-use layer::{Header, Layer};
+use layer::{Header, Layer, Variants};
 use package::Package;
 use paint::Material;
 use parts::Parts;
@@ -97,17 +97,25 @@ fn write_still(
     (organs, columns): (&StillOrgans, Option<&Columns>),
     out: &mut dyn Patched,
 ) -> io::Result<()> {
+    in_layer(asked, None, out, &mut |layer| put_still(layer, asked, wood, (organs, columns)))
+}
+
+/// Writes plants at an age within what is open.
+fn put_still(
+    layer: &mut dyn Layer,
+    asked: &Asked,
+    wood: &dyn Drawing,
+    (organs, columns): (&StillOrgans, Option<&Columns>),
+) -> io::Result<()> {
     let plants = &Plants { columns, ..Plants::of(&organs.lives, &organs.options, &organs.members) };
     let course = Course::still();
     let skeletons = skeletons(plants, &course);
-    in_layer(asked, None, out, &mut |layer| {
-        let slots = wood.slots();
-        let mut slotted = Vec::new();
-        if wood.counts().faces > 0 {
-            slotted = still::write_mesh(layer, (ROOT, "wood", "wood"), wood, &slots)?;
-        }
-        write_organs(layer, (asked, &slotted), (plants, &skeletons), &course, false)
-    })
+    let slots = wood.slots();
+    let mut slotted = Vec::new();
+    if wood.counts().faces > 0 {
+        slotted = still::write_mesh(layer, (ROOT, "wood", "wood"), wood, &slots)?;
+    }
+    write_organs(layer, (asked, &slotted), (plants, &skeletons), &course, false)
 }
 
 /// Writes lives that were shown at the same ages; wood is round within a tolerance, metres.
@@ -156,25 +164,55 @@ fn in_layer(
     out: &mut dyn Patched,
     write: &mut dyn FnMut(&mut dyn Layer) -> io::Result<()>,
 ) -> io::Result<()> {
+    layered(asked, time, out, &mut |layer| {
+        layer.begin("Xform", ROOT, &[])?;
+        write(layer)?;
+        layer.end()
+    })
+}
+
+/// Writes the variants of the one prim at the root.
+fn in_variants(
+    asked: &Asked,
+    variants: &Variants,
+    out: &mut dyn Patched,
+    write: &mut dyn FnMut(usize, &mut dyn Layer) -> io::Result<()>,
+) -> io::Result<()> {
+    layered(asked, None, out, &mut |layer| {
+        layer.begin_varied("Xform", ROOT, variants)?;
+        for (number, name) in variants.names.iter().enumerate() {
+            layer.begin_variant(name)?;
+            write(number, layer)?;
+            layer.end()?;
+        }
+        layer.end()?;
+        layer.end()
+    })
+}
+
+fn layered(
+    asked: &Asked,
+    time: Option<[f64; 3]>,
+    out: &mut dyn Patched,
+    write: &mut dyn FnMut(&mut dyn Layer) -> io::Result<()>,
+) -> io::Result<()> {
     let header = Header { root: ROOT.to_owned(), words: asked.words.clone(), time };
     if asked.encoding != Encoding::Text {
         check_goes_back(out)?;
     }
     match asked.encoding {
-        Encoding::Text => in_root(&mut Text::begin(out, &header)?, write),
-        Encoding::Binary => in_root(&mut Binary::begin(out, &header)?, write),
+        Encoding::Text => whole(&mut Text::begin(out, &header)?, write),
+        Encoding::Binary => whole(&mut Binary::begin(out, &header)?, write),
         Encoding::Package => {
             let mut package = Package::begin(out, "plant.usdc")?;
-            in_root(&mut Binary::begin(&mut package, &header)?, write)?;
+            whole(&mut Binary::begin(&mut package, &header)?, write)?;
             package.finish(asked.pictures.files())
         }
     }
 }
 
-fn in_root(layer: &mut dyn Layer, write: &mut dyn FnMut(&mut dyn Layer) -> io::Result<()>) -> io::Result<()> {
-    layer.begin("Xform", ROOT, &[])?;
+fn whole(layer: &mut dyn Layer, write: &mut dyn FnMut(&mut dyn Layer) -> io::Result<()>) -> io::Result<()> {
     write(layer)?;
-    layer.end()?;
     layer.finish()
 }
 

@@ -4,7 +4,7 @@ use super::changing::{LIVES, begin_mesh, extent};
 use super::layer::{Attribute, Data, Layer, Value};
 use super::models::rgb;
 use super::paint::{self, Material, Palette};
-use super::{Asked, Organs, Patched, ROOT, in_layer, write_still};
+use super::{Asked, Organs, Patched, ROOT, Variants, in_layer, in_variants, put_still, write_still};
 use phytomer_life::{StillOrgans, organs_alone, organs_of_plot, wood_of, wood_of_plot};
 use phytomer_meshes::{Drawing, MeshOptions, PlantDrawing, PlotMesh, Scene, Slot, Slots, Slotting, Vertex};
 use phytomer_sim::plant::Class;
@@ -19,14 +19,40 @@ pub fn write_plant(asked: &Asked, scene: &Scene, run_seed: u64, out: &mut dyn Pa
     let wood = Scene::new(scene.plant(), scene.age(), &wood_of(scene.options()));
     let wood = PlantDrawing { scene: &wood, about };
     let merged = asked.organs == Organs::Merged;
-    if is_apart(scene.options())
-        || scene.columns().is_some() && merged
-        || are_slotted([scene.options()].into_iter(), merged)
-    {
+    if is_drawn(scene, merged) {
         let organs = Scene::new(scene.plant(), scene.age(), &organs_alone(scene.options()));
         return write_drawn(asked, [&wood, &PlantDrawing { scene: &organs, about }], out);
     }
     write_still(asked, &wood, (&StillOrgans::of_plant(scene), scene.columns()), out)
+}
+
+/// Writes levels of detail of a plant, the finest first, as a set of variants `lod` of the prim at the root: `lod0`,
+/// `lod1` and so on, of which the first is chosen. That has organs as they are asked for; in the coarser ones they
+/// are merged, since they have coarser forms.
+///
+/// # Errors
+/// Those of `out`.
+pub fn write_levels(asked: &Asked, levels: &[Scene], run_seed: u64, out: &mut dyn Patched) -> io::Result<()> {
+    let names: Vec<String> = (0..levels.len()).map(|number| format!("lod{number}")).collect();
+    let variants = Variants { set: "lod", names: &names };
+    in_variants(asked, &variants, out, &mut |number, layer| {
+        let (scene, merged) = (&levels[number], asked.organs == Organs::Merged);
+        let about = scene.about(run_seed);
+        let wood = Scene::new(scene.plant(), scene.age(), &wood_of(scene.options()));
+        let wood = PlantDrawing { scene: &wood, about };
+        if number == 0 && !is_drawn(scene, merged) {
+            return put_still(layer, asked, &wood, (&StillOrgans::of_plant(scene), scene.columns()));
+        }
+        let organs = Scene::new(scene.plant(), scene.age(), &organs_alone(scene.options()));
+        put_drawn(layer, asked, [&wood, &PlantDrawing { scene: &organs, about }])
+    })
+}
+
+/// Whether organs are drawn into a mesh of their own.
+fn is_drawn(scene: &Scene, merged: bool) -> bool {
+    is_apart(scene.options())
+        || scene.columns().is_some() && merged
+        || are_slotted([scene.options()].into_iter(), merged)
 }
 
 /// Writes the plants of a plot, each in its place, with its obstacles.
@@ -64,25 +90,27 @@ fn is_apart(options: &MeshOptions) -> bool {
 
 /// Writes wood and organs as two meshes, with all that their vertices tell.
 fn write_drawn(asked: &Asked, [wood, organs]: [&dyn Drawing; 2], out: &mut dyn Patched) -> io::Result<()> {
+    in_layer(asked, None, out, &mut |layer| put_drawn(layer, asked, [wood, organs]))
+}
+
+fn put_drawn(layer: &mut dyn Layer, asked: &Asked, [wood, organs]: [&dyn Drawing; 2]) -> io::Result<()> {
     let both = [("wood", wood, wood.slots()), ("organs", organs, organs.slots())];
-    in_layer(asked, None, out, &mut |layer| {
-        let mut materials = Vec::new();
-        for (name, drawing, slots) in &both {
-            if drawing.counts().faces > 0 {
-                materials.extend(write_mesh(layer, (ROOT, *name, *name), *drawing, slots)?);
-            }
+    let mut materials = Vec::new();
+    for (name, drawing, slots) in &both {
+        if drawing.counts().faces > 0 {
+            materials.extend(write_mesh(layer, (ROOT, *name, *name), *drawing, slots)?);
         }
-        let mut written: Vec<Material> = Vec::new();
-        for slot in &materials {
-            if !written.iter().any(|known| known.name == slot.name) {
-                written.push(Material::of(slot));
-            }
+    }
+    let mut written: Vec<Material> = Vec::new();
+    for slot in &materials {
+        if !written.iter().any(|known| known.name == slot.name) {
+            written.push(Material::of(slot));
         }
-        if both.iter().all(|(.., slots)| slots.is_plain()) {
-            written = vec![Material::plain("wood", 0.85), Material::plain("organs", 0.6)];
-        }
-        paint::write_materials(layer, ROOT, &asked.pictures, &written)
-    })
+    }
+    if both.iter().all(|(.., slots)| slots.is_plain()) {
+        written = vec![Material::plain("wood", 0.85), Material::plain("organs", 0.6)];
+    }
+    paint::write_materials(layer, ROOT, &asked.pictures, &written)
 }
 
 /// Writes the mesh of a drawing. Each property is drawn anew, so that memory holds one of them at a time. Where slots

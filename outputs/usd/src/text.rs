@@ -1,6 +1,6 @@
 //! A layer as text (`.usda`): every number with as many digits as bring it back.
 
-use super::layer::{Attribute, Data, Header, Layer, Value, Values};
+use super::layer::{Attribute, Data, Header, Layer, Value, Values, Variants};
 use half::f16;
 use std::fmt::Display;
 use std::io::{self, Write};
@@ -113,6 +113,34 @@ impl<W: Write> Layer for Text<W> {
         writeln!(self.out)?;
         self.indent()?;
         writeln!(self.out, "{{")?;
+        self.depth += 1;
+        Ok(())
+    }
+
+    fn begin_varied(&mut self, of: &'static str, name: &str, variants: &Variants) -> io::Result<()> {
+        let Variants { set, names } = variants;
+        let chosen = names.first().map_or("", String::as_str);
+        let of_prim = [
+            format!("def {of} {} (", quoted(name)),
+            "    variants = {".to_owned(),
+            format!("        string {set} = {}", quoted(chosen)),
+            "    }".to_owned(),
+            format!("    prepend variantSets = {}", quoted(set)),
+            ")".to_owned(),
+            "{".to_owned(),
+            format!("    variantSet {} = {{", quoted(set)),
+        ];
+        for line in of_prim {
+            self.indent()?;
+            writeln!(self.out, "{line}")?;
+        }
+        self.depth += 2;
+        Ok(())
+    }
+
+    fn begin_variant(&mut self, name: &str) -> io::Result<()> {
+        self.indent()?;
+        writeln!(self.out, "{} {{", quoted(name))?;
         self.depth += 1;
         Ok(())
     }

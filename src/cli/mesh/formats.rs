@@ -93,6 +93,28 @@ impl Format {
         }
     }
 
+    /// Writes levels of detail of a plant, the finest first, into one file of USD, with words about them.
+    ///
+    /// # Errors
+    /// As [`Format::write_plant`]; a format that has a file for each level.
+    pub fn write_levels(
+        self,
+        levels: &[Scene],
+        (run_seed, told): (u64, &str),
+        out: &mut Destination,
+        path: &Path,
+    ) -> io::Result<()> {
+        let (Self::Usd(encoding, organs), Some(first)) = (self, levels.first()) else {
+            return Err(io::Error::other("levels of detail are in one file in GLB and USD alone"));
+        };
+        let about = first.about(run_seed);
+        let pictures = Pictures::of(&PlantDrawing { scene: first, about }.slots(), stem(path));
+        let words = format!("{}; {told}", about.in_words());
+        let asked = Asked { encoding, organs, words, pictures };
+        usd::write_levels(&asked, levels, run_seed, out)?;
+        beside_usd(&asked, path)
+    }
+
     /// Writes the plants of a plot, with its obstacles.
     ///
     /// # Errors

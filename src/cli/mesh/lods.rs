@@ -1,7 +1,7 @@
 //! Levels of detail: `mesh --lods 4`, or `--lods 20k,5k,1k` with the triangles of each further level.
 //!
-//! A GLB file holds all levels; of other formats there is a file for each, `NAME_lod0.ply` and so on. Absent: which
-//! levels there are (`phytomer_outputs::pictures::levels`), and the files of a level.
+//! A GLB or USD file holds all levels; of other formats there is a file for each, `NAME_lod0.ply` and so on. Absent:
+//! which levels there are (`phytomer_outputs::pictures::levels`), and the files of a level.
 
 use super::super::budget::{length, triangles};
 use super::super::regrown::Regrown;
@@ -17,7 +17,7 @@ use phytomer_outputs::gltf::{self, write_levels};
 use phytomer_outputs::meshes::{Cards, PlantDrawing, Scene};
 use phytomer_outputs::pictures::Apart;
 use phytomer_outputs::pictures::cards::cards;
-use phytomer_outputs::pictures::levels::{Level, TooCoarse, levels};
+use phytomer_outputs::pictures::levels::{Level, SCREEN, TooCoarse, levels};
 use phytomer_outputs::usd::Organs;
 use serde_json::{Map, Value, json};
 use std::path::{Path, PathBuf};
@@ -32,13 +32,13 @@ const MOST_OF_CARDS: f64 = 0.03;
 pub struct Lods {
     /// Levels of detail: their number, from 1 to 8, each of a quarter of the triangles of the one before; or the most
     /// triangles of each level after the first, such as 20k,5k,1k. All of them keep the outline of the plant from eight
-    /// sides within 3 %. One GLB file has all; other formats have a file for each, such as NAME_lod1.ply.
+    /// sides within 3 %. One GLB or USD file has all; other formats have a file for each, such as NAME_lod1.ply.
     #[arg(long, value_name = "LEVELS|COUNTS", value_parser = asked, allow_hyphen_values = true)]
-    #[arg(conflicts_with_all = ["plot", "ages", "rig", "range"])]
+    #[arg(conflicts_with_all = ["ages", "rig", "range"])]
     lods: Option<Asked>,
     /// Let the last of the --lods of a GLB file be crossed cards: four upright pictures of the plant in planes 45
     /// degrees apart, with an atlas of colour, opacity and normals.
-    #[arg(long, requires = "lods")]
+    #[arg(long, requires = "lods", conflicts_with = "plot")]
     cards: bool,
 }
 
@@ -52,11 +52,16 @@ impl Lods {
         self.lods.as_ref()
     }
 
+    /// The most triangles of each level after the first.
+    pub fn most(&self) -> Vec<Option<u64>> {
+        self.lods.as_ref().map(|asked| asked.0.clone()).unwrap_or_default()
+    }
+
     /// Refuses what cannot have levels.
     ///
     /// # Errors
     /// The format, or the name.
-    pub fn check(&self, out: &Path, format: Format) -> Result<(), Misuse> {
+    pub fn check(&self, out: &Path, format: Format, is_plot: bool) -> Result<(), Misuse> {
         if self.lods.is_none() {
             return Ok(());
         }
@@ -72,7 +77,9 @@ impl Lods {
                 "--lods: organs that stand for others are larger than their model; leave out --leaves instances"
                     .to_owned(),
             )),
-            Format::Usd(..) => Err(Misuse("--lods: this is for GLB, PLY, OBJ and STL".to_owned())),
+            Format::Usd(..) if is_plot => Err(Misuse(
+                "--lods: a USD file has levels of a single plant; write a plot as GLB, PLY, OBJ or STL".to_owned(),
+            )),
             Format::Ply | Format::Stl | Format::Obj if is_stdout(out) => Err(Misuse(
                 "--lods: each level is a file, and stdout is one: name a file, to whose name _lod0 and so on are added"
                     .to_owned(),
@@ -84,7 +91,7 @@ impl Lods {
 
 /// Writes the levels of the plant of a mesh.
 pub fn write(mesh: &Mesh, regrown: &Regrown, format: Format) -> Result<Verdict> {
-    let mut most = mesh.lods.asked().map(|asked| asked.0.clone()).unwrap_or_default();
+    let mut most = mesh.lods.most();
     let asked = most.len() + 1;
     let of_cards = if mesh.lods.cards { most.pop().flatten() } else { None };
     let seed = regrown.scenario.seed;
@@ -103,6 +110,7 @@ pub fn write(mesh: &Mesh, regrown: &Regrown, format: Format) -> Result<Verdict> 
             found.iter().map(|level| Scene::new(scene.plant(), scene.age(), &level.options)).collect();
         let files = match format {
             Format::Glb(_) => vec![(mesh.out.clone(), write_glb(mesh, (&found, &scenes), cards.as_ref(), seed)?)],
+            Format::Usd(..) => vec![(mesh.out.clone(), write_usd(mesh, format, (&found, &scenes), seed)?)],
             _ => (0..)
                 .zip(&scenes)
                 .map(|(number, scene)| write_file(mesh, format, (number, scene), seed))
@@ -216,6 +224,14 @@ fn write_glb(mesh: &Mesh, (found, scenes): (&[Level], &[Scene]), cards: Option<&
     Ok(file.finish()?)
 }
 
+fn write_usd(mesh: &Mesh, format: Format, (found, scenes): (&[Level], &[Scene]), seed: u64) -> Result<u64> {
+    let words = (0..).zip(found).map(|(number, level)| format!("lod{number}: {}", in_words(level)));
+    let words = words.collect::<Vec<_>>().join("; ");
+    let mut file = Destination::create(&mesh.out)?;
+    format.write_levels(scenes, (seed, &words), &mut file, &mesh.out).with_context(|| mesh.failing())?;
+    Ok(file.finish()?)
+}
+
 fn write_file(mesh: &Mesh, format: Format, (number, scene): (usize, &Scene), seed: u64) -> Result<(PathBuf, u64)> {
     let path = named(&mesh.out, number);
     let mut file = Destination::create(&path)?;
@@ -224,14 +240,22 @@ fn write_file(mesh: &Mesh, format: Format, (number, scene): (usize, &Scene), see
 }
 
 /// The name of the file of a level.
-fn named(out: &Path, number: usize) -> PathBuf {
+pub fn named(out: &Path, number: usize) -> PathBuf {
     let stem = out.file_stem().unwrap_or_default().to_string_lossy();
     let ending = out.extension().unwrap_or_else(|| "ply".as_ref()).to_string_lossy();
     out.with_file_name(format!("{stem}_lod{number}.{ending}"))
 }
 
+/// The part of the area of the screen that what is shown covers down to which a level of these triangles is shown.
+pub fn screen_of(faces: &[u64], level: usize) -> f64 {
+    match faces.get(level + 1) {
+        Some(_) => SCREEN * faces[level] as f64 / faces[0].max(1) as f64,
+        None => 0.0,
+    }
+}
+
 /// That a level cannot have so few triangles.
-fn too_coarse(what: &str, TooCoarse { level, most, least }: TooCoarse) -> Misuse {
+pub fn too_coarse(what: &str, TooCoarse { level, most, least }: TooCoarse) -> Misuse {
     let [most, least] = [most, least].map(amounts::count);
     Misuse(format!(
         "--lods: level {level} of {what} may have {most} triangles, and has at least {least} where its outline stays \

@@ -25,6 +25,7 @@ mod tests;
 
 use super::chunk::{Tag, Vertex};
 use coarse::Coarse;
+use glam::Vec3;
 use phytomer_looks::FormName;
 use phytomer_sim::plant::Form;
 use side::Side;
@@ -69,6 +70,8 @@ pub struct FormMesh {
     /// Whether it becomes slim or full in each of its parts; else in its width.
     in_parts: bool,
     side: Side,
+    /// The box of its corners, and the farthest that their offsets from the middle lines of their parts reach.
+    extent: [[f32; 3]; 3],
     /// Whether each of its triangles is of a closed part, of a form from near, whose fullness is found by its area.
     closed: Vec<bool>,
     /// The same form with fewer triangles, made when it is first asked for.
@@ -122,6 +125,7 @@ impl FormMesh {
             depth,
             in_parts: false,
             side,
+            extent: [[0.0; 3]; 3],
             closed: Vec::new(),
             coarser: OnceLock::new(),
         }
@@ -135,6 +139,7 @@ impl FormMesh {
     /// The same where the width, or the length over the width, scales what leans by about `nominal`.
     fn measured_at(mut self, nominal: f32) -> Self {
         self.side = Side::of(&self.points, &self.faces, self.depth, f64::from(nominal));
+        self.extent = extent(&self.points);
         self
     }
 
@@ -143,11 +148,26 @@ impl FormMesh {
         self.coarser.get_or_init(|| coarse::coarser(self))
     }
 
+    /// The same form with fewer triangles, the finest first.
+    pub(super) fn coarser_meshes(&self) -> impl Iterator<Item = &Self> {
+        self.coarser().iter().map(|coarse| &coarse.mesh)
+    }
+
     /// The coarsest form that lies within a distance, metres, of this one for an organ of this length and width.
     #[inline]
     pub fn within(&self, distance: f32, size: [f32; 2]) -> &Self {
         let serves = self.coarser().iter().rev().find(|coarse| coarse.distance(size) <= distance);
         serves.map_or(self, |coarse| &coarse.mesh)
+    }
+
+    /// Calls `take` with the coarser forms, the finest first: the distance, metres, from which on [`Self::within`]
+    /// gives it or a coarser one for an organ of this length and width, and its triangles.
+    pub(super) fn each_coarser(&self, size: [f32; 2], take: &mut dyn FnMut(f32, u32)) {
+        let all = self.coarser();
+        for (place, coarse) in all.iter().enumerate() {
+            let from = all[place..].iter().map(|coarse| coarse.distance(size)).fold(f32::INFINITY, f32::min);
+            take(from, coarse.mesh.faces.len() as u32);
+        }
     }
 
     /// The area of one side as a share of length × width, for an organ with `aspect` = width / length.
@@ -225,6 +245,35 @@ impl FormMesh {
 }
 
 impl FormMesh {
+    /// What scales the three axes of the box, and how much fuller its parts are.
+    #[inline]
+    fn scales(&self, place: &Placement) -> ([f32; 3], f32) {
+        let [length, width] = place.size;
+        let (width, more) = if self.in_parts { (width, place.fullness - 1.0) } else { (width * place.fullness, 0.0) };
+        ([length, width, if self.depth == Depth::Width { width } else { length }], more)
+    }
+
+    /// Replaces `out` by the places of its corners in its placement, as [`FormMesh::write`] gives them to vertices.
+    pub(super) fn places(&self, place: &Placement, out: &mut Vec<Vec3>) {
+        let ([length, width, depth], more) = self.scales(place);
+        let [base, heading, up] = [place.base, place.heading, place.up].map(Vec3::from_array);
+        let axes = [heading * length, up.cross(heading) * width, up * depth];
+        out.clear();
+        out.extend(self.points.iter().map(|point| {
+            let [x, y, z] = if more == 0.0 { point.at } else { point.fuller(more) };
+            base + x * axes[0] + y * axes[1] + z * axes[2]
+        }));
+    }
+
+    /// The least and the most of its corners along the organ, to its left and to its upper side, from its base, metres.
+    #[inline]
+    pub(super) fn bounds(&self, place: &Placement) -> [Vec3; 2] {
+        let (scales, more) = self.scales(place);
+        let [low, high, across] = self.extent.map(|corner| Vec3::from_array(corner) * Vec3::from_array(scales));
+        let more = more.abs() * across;
+        [low - more, high + more]
+    }
+
     /// Lays the tints of its corners over the colours that [`FormMesh::write`] gave them.
     pub(crate) fn tint(&self, out: &mut [Vertex]) {
         for (point, vertex) in self.points.iter().zip(out).filter(|(point, _)| point.tint[3] > 0) {
@@ -239,6 +288,18 @@ impl Point {
     fn fuller(&self, more: f32) -> [f32; 3] {
         [0, 1, 2].map(|k| self.at[k] + more * self.across[k])
     }
+}
+
+/// The least and the most of the corners along each axis, and the most of their offsets.
+fn extent(points: &[Point]) -> [[f32; 3]; 3] {
+    let Some(first) = points.first() else { return [[0.0; 3]; 3] };
+    points.iter().fold([first.at, first.at, [0.0; 3]], |[low, high, across], point| {
+        [
+            [0, 1, 2].map(|k| low[k].min(point.at[k])),
+            [0, 1, 2].map(|k| high[k].max(point.at[k])),
+            [0, 1, 2].map(|k| across[k].max(point.across[k].abs())),
+        ]
+    })
 }
 
 #[inline]

@@ -172,6 +172,26 @@ impl Reduced {
         Ok(())
     }
 
+    /// Calls `take` with the places of the corners of each ring of a tube but the first, and of the ring before it;
+    /// the lists are working memory.
+    pub fn each_piece(
+        &self,
+        stems: &Stems,
+        tube: usize,
+        (places, corners): (&mut Vec<Place>, &mut [Vec<Vec3>; 2]),
+        take: &mut dyn FnMut([&[Vec3]; 2]),
+    ) {
+        let rings = self.rings_of(tube);
+        place(rings, stems, places);
+        for (number, (ring, place)) in rings.iter().zip(&*places).enumerate() {
+            corners.swap(0, 1);
+            place.corners(&self.polygons[usize::from(ring.sides)], &mut corners[1]);
+            if number > 0 {
+                take([&corners[0], &corners[1]]);
+            }
+        }
+    }
+
     /// Calls `put` with all triangles of a tube; `first` is the index of its first vertex.
     ///
     /// # Errors

@@ -107,6 +107,14 @@ impl Place {
         self.up * cos + side * sin
     }
 
+    /// Replaces `out` by the places of its corners.
+    pub fn corners(&self, polygon: &Polygon, out: &mut Vec<Vec3>) {
+        let side = self.along.cross(self.up);
+        let corners = &polygon.corners[..polygon.corners.len().saturating_sub(1)];
+        out.clear();
+        out.extend(corners.iter().map(|corner| self.at + self.radial(side, *corner) * (self.radius * polygon.reach)));
+    }
+
     /// Writes the ring of the side: a vertex a corner, the first one again at the end.
     pub fn write_side(&self, polygon: &Polygon, tag: &Tag, out: &mut [Vertex]) {
         let side = self.along.cross(self.up);

@@ -13,7 +13,7 @@ mod ints;
 mod tables;
 mod values;
 
-use super::layer::{Attribute, Data, Header, Layer, List, Value, Values as Make};
+use super::layer::{Attribute, Data, Header, Layer, List, Value, Values as Make, Variants};
 use phytomer_meshes::Patched;
 use std::io;
 use tables::{ROOT, Spec, Tables};
@@ -25,12 +25,16 @@ const BOOTSTRAP: usize = 88;
 const CONTENTS: u64 = 16;
 const VERSION: [u8; 8] = [0, 8, 0, 0, 0, 0, 0, 0];
 
+/// What says that a spec goes over what others say.
+const OVER: u32 = 1;
+
 /// A field of a spec.
 type Field = (u32, Rep);
 
-/// A prim that is open.
+/// A prim, a set of variants or a variant that is open.
 struct Open {
     path: u32,
+    spec: Spec,
     fields: Vec<Field>,
     properties: Vec<u32>,
     children: Vec<u32>,
@@ -61,6 +65,8 @@ pub struct Binary<'o> {
     values: Values<'o>,
     tables: Tables,
     open: Vec<Open>,
+    /// The name of the set of variants that is open.
+    set: String,
 }
 
 impl<'o> Binary<'o> {
@@ -74,9 +80,9 @@ impl<'o> Binary<'o> {
         bootstrap[..8].copy_from_slice(b"PXR-USDC");
         bootstrap[8..16].copy_from_slice(&VERSION);
         values.put(&bootstrap)?;
-        let mut binary = Self { values, tables: Tables::new(), open: Vec::new() };
+        let mut binary = Self { values, tables: Tables::new(), open: Vec::new(), set: String::new() };
         let fields = binary.of_header(header)?;
-        binary.open.push(Open { path: ROOT, fields, properties: Vec::new(), children: Vec::new() });
+        binary.begin_spec(ROOT, Spec::PseudoRoot, fields);
         Ok(binary)
     }
 
@@ -168,10 +174,15 @@ impl<'o> Binary<'o> {
         self.values.write_words(Type::TokenVector, words)
     }
 
-    /// Ends a prim, or the root of all.
-    fn close(&mut self, spec: Spec) -> io::Result<()> {
-        let Some(Open { path, mut fields, properties, children }) = self.open.pop() else { return Ok(()) };
-        for (name, words) in [("properties", properties), ("primChildren", children)] {
+    fn begin_spec(&mut self, path: u32, spec: Spec, fields: Vec<Field>) {
+        self.open.push(Open { path, spec, fields, properties: Vec::new(), children: Vec::new() });
+    }
+
+    /// Ends what is open.
+    fn close(&mut self) -> io::Result<()> {
+        let Some(Open { path, spec, mut fields, properties, children }) = self.open.pop() else { return Ok(()) };
+        let of_children = if spec == Spec::VariantSet { "variantChildren" } else { "primChildren" };
+        for (name, words) in [("properties", properties), (of_children, children)] {
             if !words.is_empty() {
                 let rep = self.words(&words)?;
                 fields.push(self.field(name, rep));
@@ -195,7 +206,37 @@ impl Layer for Binary<'_> {
             let rep = self.values.write_prepended(Type::TokenListOp, &words)?;
             fields.push(self.field("apiSchemas", rep));
         }
-        self.open.push(Open { path, fields, properties: Vec::new(), children: Vec::new() });
+        self.begin_spec(path, Spec::Prim, fields);
+        Ok(())
+    }
+
+    fn begin_varied(&mut self, of: &'static str, name: &str, variants: &Variants) -> io::Result<()> {
+        self.begin(of, name, &[])?;
+        let Variants { set, names } = variants;
+        let chosen = names.first().map_or("", String::as_str);
+        let [set_text, chosen] = [*set, chosen].map(|text| self.tables.text(text));
+        let sets = self.values.write_prepended(Type::StringListOp, &[set_text])?;
+        let choice = self.values.write_choice(set_text, chosen)?;
+        let word = self.tables.token(set);
+        let of_sets = self.words(&[word])?;
+        let more = [("variantSetNames", sets), ("variantSelection", choice), ("variantSetChildren", of_sets)];
+        let more = more.map(|(name, rep)| self.field(name, rep));
+        let element = self.tables.token(&format!("{{{set}=}}"));
+        let Some(prim) = self.open.last_mut() else { return Ok(()) };
+        prim.fields.extend(more);
+        let path = self.tables.path(prim.path, element, false);
+        self.set = (*set).to_owned();
+        self.begin_spec(path, Spec::VariantSet, Vec::new());
+        Ok(())
+    }
+
+    fn begin_variant(&mut self, name: &str) -> io::Result<()> {
+        let (word, element) = (self.tables.token(name), self.tables.token(&format!("{{{}={name}}}", self.set)));
+        let [.., prim, set] = &mut self.open[..] else { return Ok(()) };
+        set.children.push(word);
+        let path = self.tables.path(prim.path, element, false);
+        let specifier = self.field("specifier", Rep::inlined(Type::Specifier, OVER));
+        self.begin_spec(path, Spec::Variant, vec![specifier]);
         Ok(())
     }
 
@@ -239,11 +280,11 @@ impl Layer for Binary<'_> {
     }
 
     fn end(&mut self) -> io::Result<()> {
-        self.close(Spec::Prim)
+        self.close()
     }
 
     fn finish(&mut self) -> io::Result<()> {
-        self.close(Spec::PseudoRoot)?;
+        self.close()?;
         let contents = self.tables.write(&mut self.values)?;
         self.values.patch(CONTENTS, &contents.to_le_bytes())
     }

@@ -20,6 +20,8 @@ pub enum Spec {
     Prim = 6,
     PseudoRoot = 7,
     Relationship = 8,
+    Variant = 10,
+    VariantSet = 11,
 }
 
 /// An element of the tree of paths.

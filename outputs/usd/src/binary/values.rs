@@ -21,10 +21,12 @@ pub enum Type {
     Vec3f = 24,
     Vec4f = 28,
     TokenListOp = 32,
+    StringListOp = 33,
     PathListOp = 34,
     TokenVector = 41,
     Specifier = 42,
     Variability = 44,
+    VariantSelectionMap = 45,
     TimeSamples = 46,
     DoubleVector = 48,
 }
@@ -191,6 +193,17 @@ impl<'o> Values<'o> {
         self.put_long(words.len() as u64)?;
         self.put(cast_slice(words))?;
         Ok(Rep::at(of, place, 0))
+    }
+
+    /// Writes which variant of a set is chosen, by the numbers of two strings.
+    ///
+    /// # Errors
+    /// Those of the file.
+    pub fn write_choice(&mut self, set: u32, variant: u32) -> io::Result<Rep> {
+        let place = self.align()?;
+        self.put_long(1)?;
+        self.put(cast_slice(&[set, variant]))?;
+        Ok(Rep::at(Type::VariantSelectionMap, place, 0))
     }
 
     /// Writes a list that stands for itself.
