@@ -5,8 +5,32 @@
 
 use super::stem::Stems;
 use super::turned::{Choice, Variant};
-use phytomer_sim::plant::{NodeId, OrganId, Plant};
-use phytomer_sim::pose::organ_frame;
+use phytomer_sim::plant::{AxisId, Class, NodeId, OrganId, Plant};
+use phytomer_sim::pose::{node_frame, organ_frame};
+
+/// The leaf of a node: an organ, or an axis with leaflets, as a date palm's.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum LeafOf {
+    /// An organ.
+    Organ(OrganId),
+    /// The first axis in the axil of a node without leaves.
+    Axis(AxisId),
+}
+
+/// The first leaf of each node; of a node without leaves the first axis that it bears.
+pub fn leaves_of_nodes(plant: &Plant) -> Vec<Option<LeafOf>> {
+    let mut leaves = vec![None; plant.nodes.len()];
+    let organs = plant.organs.node.iter().zip(&plant.organs.kind).enumerate();
+    for (place, (node, _)) in organs.filter(|(_, (_, kind))| kind.class() == Class::Leaf) {
+        leaves[node.index()].get_or_insert(LeafOf::Organ(OrganId(place as u32)));
+    }
+    for (place, bearer) in plant.axes.bearer.iter().enumerate() {
+        if let Some(node) = bearer.some() {
+            leaves[node.index()].get_or_insert(LeafOf::Axis(AxisId(place as u32)));
+        }
+    }
+    leaves
+}
 
 impl Stems<'_> {
     /// Which of the forms from near an internode has.
@@ -15,7 +39,7 @@ impl Stems<'_> {
         if nodes.diameter[node.index()] < self.thin {
             return Variant::Plain;
         }
-        let fallen = self.leaf_of(node).is_some_and(|leaf| !self.plant.organ_stands(leaf, self.age));
+        let fallen = self.leaf_of(node).is_some_and(|leaf| !self.leaf_stands(leaf));
         let age = self.age.saturating_sub(nodes.birth[node.index()]);
         let next = self.next.get(node.index()).and_then(|next| next.some());
         let was = |next: NodeId| nodes.birth[next.index()] <= self.age && !self.plant.stands(next, self.age);
@@ -23,14 +47,31 @@ impl Stems<'_> {
     }
 
     /// The leaf of a node on which the bases of leaves stay.
-    fn leaf_of(&self, node: NodeId) -> Option<OrganId> {
+    fn leaf_of(&self, node: NodeId) -> Option<LeafOf> {
         self.leaves.get(node.index()).copied().flatten()
+    }
+
+    /// Whether a leaf stands, or is yet to appear.
+    fn leaf_stands(&self, leaf: LeafOf) -> bool {
+        let Plant { axes, nodes, .. } = self.plant;
+        match leaf {
+            LeafOf::Organ(leaf) => self.plant.organ_stands(leaf, self.age),
+            LeafOf::Axis(axis) => axes.last_node[axis.index()]
+                .some()
+                .is_none_or(|last| nodes.birth[last.index()] > self.age || self.plant.stands(last, self.age)),
+        }
     }
 
     /// The direction out of the stem in which the leaf of an internode stands or stood.
     pub(super) fn to_leaf(&self, node: NodeId) -> [f32; 3] {
         let frame = self.plant.frames.at(node);
-        let leaf = self.leaf_of(node).map(|leaf| organ_frame(self.plant, leaf, self.age).heading);
+        let leaf = self.leaf_of(node).map(|leaf| match leaf {
+            LeafOf::Organ(leaf) => organ_frame(self.plant, leaf, self.age).heading,
+            LeafOf::Axis(axis) => {
+                let Plant { axes, .. } = self.plant;
+                node_frame(self.plant, node).inserted(axes.azimuth[axis.index()], axes.insertion[axis.index()]).heading
+            }
+        });
         let ahead = leaf.unwrap_or(frame.up);
         let along: f32 = (0..3).map(|k| ahead[k] * frame.heading[k]).sum();
         let out = [0, 1, 2].map(|k| ahead[k] - along * frame.heading[k]);
