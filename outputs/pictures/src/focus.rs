@@ -144,7 +144,7 @@ fn largest(plant: &Plant, age: Tick, class: Class) -> Vec<OrganId> {
 }
 
 /// The organs of a class that stand, with their lengths times their widths, square metres; of leaves those that are no
-/// bracts or scales, where there are any.
+/// bracts or scales, of a plant that has others.
 fn of_class(plant: &Plant, age: Tick, class: Class) -> Vec<(OrganId, f32)> {
     let organs = (0..plant.organs.len()).map(|organ| OrganId(organ as u32));
     let standing =
@@ -153,10 +153,7 @@ fn of_class(plant: &Plant, age: Tick, class: Class) -> Vec<(OrganId, f32)> {
         let share = plant.expanded(organ, age);
         share * share * plant.organs.length[organ.index()] * plant.organs.width[organ.index()]
     };
-    let mut organs: Vec<(OrganId, f32)> = standing.map(|organ| (organ, size(organ))).collect();
-    let is_main = |(organ, _): &(OrganId, f32)| plant.organs.kind[organ.index()].is_foliage();
-    if class == Class::Leaf && organs.iter().any(is_main) {
-        organs.retain(is_main);
-    }
-    organs
+    let is_foliage = |organ: &OrganId| plant.organs.kind[organ.index()].is_foliage();
+    let has_foliage = class == Class::Leaf && plant.organs.kind.iter().any(|kind| kind.is_foliage());
+    standing.filter(|organ| !has_foliage || is_foliage(organ)).map(|organ| (organ, size(organ))).collect()
 }

@@ -2,7 +2,7 @@
 //! plant stands between it and the eye.
 //!
 //! Lines go from points spread over an organ to the eye. A triangle of another component that a line meets hides its
-//! point (Möller & Trumbore 1997). The plant has the few polygons of detail 0 here. Absent: the camera (`camera`), and
+//! point (Möller & Trumbore 1997). The plant has the few polygons of detail 1 here. Absent: the camera (`camera`), and
 //! light.
 
 use glam::Vec3;
@@ -43,7 +43,9 @@ struct Sight {
 pub fn freest(scene: &Scene, organs: &[(OrganId, Vec3)]) -> Option<(OrganId, Vec3)> {
     let sights: Vec<Sight> =
         organs.iter().enumerate().flat_map(|(place, organ)| sights(scene, place, *organ)).collect();
-    let plain = Scene::new(scene.plant(), scene.age(), &MeshOptions { detail: 0, ..scene.options().clone() });
+    // What hides has few polygons, but the stalks that it has from near.
+    let detail = scene.options().detail.min(1);
+    let plain = Scene::new(scene.plant(), scene.age(), &MeshOptions { detail, ..scene.options().clone() });
     (0..plain.blocks()).into_par_iter().for_each_init(Mesh::default, |mesh, block| {
         plain.block(block, mesh);
         for face in &mesh.faces {
