@@ -1,11 +1,11 @@
 //! Close-ups: the largest leaf, flower and fruit of every species that ships, at detail 3.
 //!
 //! `cargo run --release --example closeups [FOLDER [NAME …]]` writes a sheet of each species below `closeups/` of a
-//! folder, `docs` if none is given, its organs side by side, and `closeups/index.md`, a page of all; with names those of
-//! the species named alone. Species of a group (`wp/…`) have the forms of the library and are drawn if they are named.
-//! An organ is drawn at the age at which the largest of its kind stands, up to the age at which the species is shown and
-//! ten ticks more. What a species does not bear is left out, and so is a species that has the same sheet as one before
-//! it, as those that state another site or another treatment.
+//! folder, `docs` if none is given, its organs side by side, and `closeups/index.md`, a page of all; with names those
+//! of the species named alone. Species of a group (`wp/…`) have the forms of the library and are drawn if they are
+//! named. An organ is drawn at the age at which the largest of its kind stands, up to the age at which the species is
+//! shown and ten ticks more. What a species does not bear is left out, and so is a species that has the same sheet as
+//! one before it, as those that state another site or another treatment.
 
 use anyhow::{Result, anyhow};
 use phytomer::config::{Kind, SPECIES_ALONE_UNTIL, presets, validate_species};
