@@ -55,7 +55,14 @@ pub struct Cluster {
     pub spread_deg: f32,
     /// The share of the length at which the middle is around which they stand, in [0, 0.8]: 0, a node that bears them;
     /// above it they fill an ellipsoid, as the fruits of a bunch.
+    #[cfg_attr(feature = "files", serde(skip_serializing_if = "is_at_the_node"))]
     pub middle: f32,
+}
+
+/// Whether the parts of a cluster stand at its node; left out of files then.
+#[cfg(feature = "files")]
+fn is_at_the_node(middle: &f32) -> bool {
+    *middle == 0.0
 }
 
 impl Default for Cluster {
