@@ -12,6 +12,7 @@ use anyhow::{Context, Result, anyhow};
 use phytomer::config::{
     Kind, Resolved, SPECIES_ALONE_UNTIL, Scenario, Species, Trial, presets, validate, validate_species,
 };
+use phytomer::outputs::meshes::MOST_DETAIL;
 use phytomer::outputs::pictures::{Canvas, Compression, Picture, draw_stands, write_png};
 use phytomer::run::filming::Filming;
 use phytomer::run::picturing::{Pictured, PicturedStand, pictured_plants, pictured_plot};
@@ -248,7 +249,7 @@ fn strip(path: &Path) -> Result<()> {
 }
 
 fn drawn(pictured: &Pictured, size: [u32; 2]) -> Canvas {
-    let style = Picture { size, ..Picture::default() };
+    let style = Picture { size, detail: MOST_DETAIL, ..Picture::default() };
     draw_stands(&pictured.stands(&[]), &pictured.title, &style)
 }
 

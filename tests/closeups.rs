@@ -225,7 +225,8 @@ fn settings_that_are_not_sound_are_faults() {
         ("{ blade = { tears = -0.5 } }", "from 0 to 1"),
         ("{ blade = { stalks = 1 } }", "stalk"),
         ("{ brush = { needles = 1 } }", "from 2 to 300"),
-        ("{ cluster = { count = 1 } }", "from 2 to 60"),
+        ("{ cluster = { count = 1 } }", "from 2 to 240"),
+        ("{ cluster = { middle = 0.9 } }", "from 0 to 0.8"),
         ("{ cluster = { flower = { petal = { claw = 2 } } } }", "from 0 to 0.9"),
     ] {
         fs::write(folder.path().join("a.toml"), leaf(near)).unwrap();

@@ -27,6 +27,7 @@ mod lamina;
 mod measure;
 mod model;
 mod near;
+mod node_leaves;
 mod obj;
 mod organ_base;
 mod outline;

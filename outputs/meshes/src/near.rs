@@ -13,7 +13,7 @@ use phytomer_sim::plant::{Form, OrganId, PaintNumber, Plant};
 use std::sync::{Arc, OnceLock};
 
 /// The length that an organ has at least for each detail from 1, in distances within which organs are drawn.
-const LENGTHS: [f32; 3] = [30.0, 120.0, 400.0];
+const LENGTHS: [f32; 3] = [50.0, 120.0, 400.0];
 
 /// The stages of a head that opens as it ages, and of a blade that tears.
 const STAGES: u8 = 8;
@@ -94,17 +94,12 @@ impl Nears {
         organ: OrganId,
         options: &MeshOptions,
     ) -> Option<(NearForm, &FormMesh)> {
-        if options.detail == 0 {
+        let detail = detail_of(plant, organ, options);
+        if detail == 0 {
             return None;
         }
         let (organs, place) = (&plant.organs, organ.index());
         let size = [organs.length[place], organs.width[place]];
-        let within = options.tolerance.filter(|tolerance| tolerance.organs).map(|tolerance| tolerance.distance);
-        let detail =
-            within.map_or(options.detail, |distance| detail_of(size[0].max(size[1]), distance, options.detail));
-        if detail == 0 {
-            return None;
-        }
         let paint = plant.look_of_organ(organ).map_or(PaintNumber::NONE, |look| look.paint);
         let setting = Paints::of(&plant.habit).organ(paint).near;
         let stated = setting.and_then(|setting| Some((setting, self.made.get(usize::from(setting))?)));
@@ -125,10 +120,15 @@ impl Nears {
     }
 }
 
-/// The detail of an organ of a length that is drawn within a distance, at most `most`.
-fn detail_of(length: f32, distance: f32, most: u8) -> u8 {
-    let reached = LENGTHS.iter().take_while(|least| length >= **least * distance).count();
-    most.min(reached as u8)
+/// The detail of an organ: what is asked for, or less where it is drawn within a distance.
+#[inline]
+pub fn detail_of(plant: &Plant, organ: OrganId, options: &MeshOptions) -> u8 {
+    let within = options.tolerance.filter(|tolerance| tolerance.organs && options.detail > 0);
+    within.map_or(options.detail, |within| {
+        let length = plant.organs.length[organ.index()].max(plant.organs.width[organ.index()]);
+        let reached = LENGTHS.iter().take_while(|least| length >= **least * within.distance).count();
+        options.detail.min(reached as u8)
+    })
 }
 
 /// A setting in each of its stages.

@@ -11,7 +11,7 @@ use super::columns::Columns;
 use super::detail::{Detail, Primitive};
 use super::dress::{Crown, is_leaf};
 use super::forms::{FormMesh, Placement};
-use super::near::{NearForm, Nears};
+use super::near::{self, NearForm, Nears};
 use super::organ_base::organ_base;
 use super::outline::{self, OrganForm, Outlines, OwnForm, Shown};
 use super::stem::Stems;
@@ -257,6 +257,12 @@ impl<'a> Scene<'a> {
     #[inline]
     pub fn near(&self, organ: OrganId) -> Option<(NearForm, &FormMesh)> {
         self.nears.as_ref()?.form((self.plant, self.age), organ, &self.options)
+    }
+
+    /// The finest detail that any of its organs has.
+    pub fn finest(&self) -> u8 {
+        let details = self.organs().map(|organ| near::detail_of(self.plant, organ, &self.options));
+        if self.options.detail == 0 { 0 } else { details.max().unwrap_or_default() }
     }
 
     /// The colours of an organ and of its stalk.

@@ -10,13 +10,14 @@ use super::detail::{Detail, Primitive};
 use super::dress::Bark;
 use super::forms::{FormMesh, Placement};
 use super::lamina::{Lamina, Piece};
+use super::node_leaves::{LeafOf, leaves_of_nodes};
 use super::section::{Prism, Ring};
 use super::tube::{Frustum, Strip, Tube};
-use super::turned::{Choice, Turned, leaves_of_nodes};
+use super::turned::{Choice, Turned};
 use super::{Joints, MeshOptions};
 use phytomer_looks::{Flare, Paints};
 use phytomer_sim::clock::Tick;
-use phytomer_sim::plant::{AxisId, InternodeLook, Kind, NodeId, OrganId, Plant, Shape as Stem};
+use phytomer_sim::plant::{AxisId, InternodeLook, Kind, NodeId, Plant, Shape as Stem};
 use std::ops::Range;
 
 /// The internodes of a plant at an age, ready to be drawn.
@@ -42,7 +43,7 @@ pub struct Stems<'a> {
     /// How the foot of the trunk widens.
     pub(super) flare: Option<Flare>,
     /// The leaf of each node, where bases of fallen leaves stay; else empty.
-    pub(super) leaves: Vec<Option<OrganId>>,
+    pub(super) leaves: Vec<Option<LeafOf>>,
     /// The least diameter of an internode that is drawn from near, metres.
     pub(super) thin: f32,
     /// The options, for the colours that are stated for components; `None` where none are.

@@ -3,10 +3,11 @@
 //!
 //! Absent: the forms themselves (`turned`, `lamina`).
 
+use super::node_leaves::LeafOf;
 use super::stem::Stems;
 use super::turned::{Choice, Variant};
-use phytomer_sim::plant::{NodeId, OrganId, Plant};
-use phytomer_sim::pose::organ_frame;
+use phytomer_sim::plant::{NodeId, Plant};
+use phytomer_sim::pose::{node_frame, organ_frame};
 
 impl Stems<'_> {
     /// Which of the forms from near an internode has.
@@ -15,7 +16,7 @@ impl Stems<'_> {
         if nodes.diameter[node.index()] < self.thin {
             return Variant::Plain;
         }
-        let fallen = self.leaf_of(node).is_some_and(|leaf| !self.plant.organ_stands(leaf, self.age));
+        let fallen = self.leaf_of(node).is_some_and(|leaf| !self.leaf_stands(leaf));
         let age = self.age.saturating_sub(nodes.birth[node.index()]);
         let next = self.next.get(node.index()).and_then(|next| next.some());
         let was = |next: NodeId| nodes.birth[next.index()] <= self.age && !self.plant.stands(next, self.age);
@@ -23,14 +24,31 @@ impl Stems<'_> {
     }
 
     /// The leaf of a node on which the bases of leaves stay.
-    fn leaf_of(&self, node: NodeId) -> Option<OrganId> {
+    fn leaf_of(&self, node: NodeId) -> Option<LeafOf> {
         self.leaves.get(node.index()).copied().flatten()
+    }
+
+    /// Whether a leaf stands, or is yet to appear.
+    fn leaf_stands(&self, leaf: LeafOf) -> bool {
+        let Plant { axes, nodes, .. } = self.plant;
+        match leaf {
+            LeafOf::Organ(leaf) => self.plant.organ_stands(leaf, self.age),
+            LeafOf::Axis(axis) => axes.last_node[axis.index()]
+                .some()
+                .is_none_or(|last| nodes.birth[last.index()] > self.age || self.plant.stands(last, self.age)),
+        }
     }
 
     /// The direction out of the stem in which the leaf of an internode stands or stood.
     pub(super) fn to_leaf(&self, node: NodeId) -> [f32; 3] {
         let frame = self.plant.frames.at(node);
-        let leaf = self.leaf_of(node).map(|leaf| organ_frame(self.plant, leaf, self.age).heading);
+        let leaf = self.leaf_of(node).map(|leaf| match leaf {
+            LeafOf::Organ(leaf) => organ_frame(self.plant, leaf, self.age).heading,
+            LeafOf::Axis(axis) => {
+                let Plant { axes, .. } = self.plant;
+                node_frame(self.plant, node).inserted(axes.azimuth[axis.index()], axes.insertion[axis.index()]).heading
+            }
+        });
         let ahead = leaf.unwrap_or(frame.up);
         let along: f32 = (0..3).map(|k| ahead[k] * frame.heading[k]).sum();
         let out = [0, 1, 2].map(|k| ahead[k] - along * frame.heading[k]);

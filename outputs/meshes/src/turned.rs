@@ -10,7 +10,6 @@ use super::tube::{Frustum, Tube, cross, lean};
 use phytomer_looks::{LeafBases, NearStem};
 use phytomer_sim::clock::Tick;
 use phytomer_sim::math::sincosf;
-use phytomer_sim::plant::{Class, OrganId, Plant};
 
 /// The colour of a dry leaf base, and its share of 255.
 const DRY: [u8; 4] = [112, 90, 62, 210];
@@ -94,16 +93,6 @@ impl Choice {
             Variant::Plain
         }
     }
-}
-
-/// The first leaf of each node; none where it has no leaf.
-pub fn leaves_of_nodes(plant: &Plant) -> Vec<Option<OrganId>> {
-    let mut leaves = vec![None; plant.nodes.len()];
-    let organs = plant.organs.node.iter().zip(&plant.organs.kind).enumerate();
-    for (place, (node, _)) in organs.filter(|(_, (_, kind))| kind.class() == Class::Leaf) {
-        leaves[node.index()].get_or_insert(OrganId(place as u32));
-    }
-    leaves
 }
 
 impl Turned {

@@ -103,6 +103,16 @@ impl<'a> Body<'a> {
         Some(Self::of(near, None, self.places.clone(), left.is_some() || self.places.len() > 1))
     }
 
+    /// Whether single organs fill so much of the picture that light must not change from cell to cell on them: a plant
+    /// from near with an organ in focus, with organs at detail 2, or with internodes that are blades, as petals.
+    pub fn is_near(&self, focused: bool) -> bool {
+        let scene = self.scene.as_ref().filter(|scene| scene.options().detail > 0);
+        scene.is_some_and(|scene| {
+            let blades = Kind::ALL.iter().zip(&self.stuff).any(|(kind, stuff)| stuff.thin && !is_leafy(*kind));
+            focused || blades || scene.finest() > 1
+        })
+    }
+
     /// A block of it, made in `mesh` where it is not kept.
     pub fn block<'m>(&'m self, block: usize, mesh: &'m mut Mesh) -> &'m Mesh {
         if let Some(kept) = self.kept.get(block) {

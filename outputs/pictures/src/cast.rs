@@ -101,7 +101,7 @@ impl<'a> Cast<'a> {
         let full = is_full(picture);
         let near: Vec<PlacedStand> = self.stands.iter().filter(|_| !full).map(|stand| stand.near(camera)).collect();
         let stands = if full { &self.stands } else { &near };
-        let lights: Vec<_> = stands.iter().map(|stand| stand.light(sun, (seen, picture.detail > 0))).collect();
+        let lights: Vec<_> = stands.iter().map(|stand| stand.light(sun, seen)).collect();
         let Picture { ground, transparent, .. } = *picture;
         let around = self
             .stands

@@ -1,21 +1,26 @@
 //! One organ that a picture is filled with: its points, and from where it is seen.
 //!
 //! A leaf is seen from above its upper side and a little from its apex, a flower from before it, a fruit from outside
-//! of the plant. The largest organ of its kind is taken, so that it is one that has expanded. Absent: what else of the
-//! plant is seen around it, which stays.
+//! of the plant, or from near that direction where other parts would hide it (`free`). Of the largest organs of its
+//! kind, which have expanded, one is taken that is freely seen. Absent: what else of the plant is seen around it, which
+//! stays.
 
-use super::View;
 use super::gaze::Gaze;
+use super::{View, free};
 use glam::Vec3;
 use phytomer_meshes::{MeshOptions, Scene, Vertex};
 use phytomer_sim::Tick;
 use phytomer_sim::math::{asinf, atan2f};
 use phytomer_sim::plant::{Class, Kind, NodeId, OrganId, Plant};
 
+/// How much smaller than the largest organ one may be that is taken because it is freely seen, and how many are asked.
+const NEARLY: f32 = 0.8;
+const MOST_ASKED: usize = 12;
+
 /// What a picture is to show.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Wanted {
-    /// The largest organ of a class: a leaf, a flower or a fruit.
+    /// The largest organ of a class, a leaf, a flower or a fruit; one that is nearly as large, if it is freely seen.
     Largest(Class),
     /// A component by its number.
     Component(u32),
@@ -33,15 +38,18 @@ impl Focus {
     /// The organ of a plant at an age that is wanted, as large as it is drawn; `None` where it does not stand.
     pub fn of(plant: &Plant, age: Tick, options: &MeshOptions, wanted: Wanted) -> Option<Self> {
         let scene = Scene::new(plant, age, options);
-        let organ = match wanted {
-            Wanted::Largest(class) => largest(plant, age, class).map(|(organ, _)| organ),
+        let organs = match wanted {
+            Wanted::Largest(class) => largest(plant, age, class),
             Wanted::Component(number) => {
-                let mut organs = (0..plant.organs.len()).map(|organ| OrganId(organ as u32));
-                organs.find(|organ| plant.organs.component[organ.index()] == number && plant.organ_stands(*organ, age))
+                let organs = (0..plant.organs.len()).map(|organ| OrganId(organ as u32));
+                let is_wanted = |organ: &OrganId| plant.organs.component[organ.index()] == number;
+                organs.filter(is_wanted).filter(|organ| plant.organ_stands(*organ, age)).take(1).collect()
             }
         };
-        if let Some(organ) = organ {
-            return Some(Self::organ(&scene, organ));
+        let before: Vec<(OrganId, Vec3)> = organs.into_iter().map(|organ| (organ, before(&scene, organ))).collect();
+        if let Some((organ, from)) = free::freest(&scene, &before) {
+            let points = scene.mesh_of(organ).vertices.iter().map(Vertex::position).collect();
+            return Some(Self { points, from: from.to_array() });
         }
         let nodes = (0..plant.nodes.len()).map(|node| NodeId(node as u32)).filter(|node| plant.stands(*node, age));
         let parts: Vec<NodeId> = nodes.filter(|node| is_of(plant, *node, wanted)).collect();
@@ -50,24 +58,7 @@ impl Focus {
 
     /// The length times the width of the largest organ of a class that stands, square metres.
     pub fn size_of_largest(plant: &Plant, age: Tick, class: Class) -> Option<f32> {
-        largest(plant, age, class).map(|(_, size)| size)
-    }
-
-    fn organ(scene: &Scene, organ: OrganId) -> Self {
-        let drawn = scene.organ(organ);
-        let [heading, up] = [drawn.heading, drawn.up].map(Vec3::from_array);
-        let from = match scene.plant().organs.kind[organ.index()].class() {
-            Class::Leaf => {
-                let up = if up.z < 0.0 { -up } else { up };
-                0.85 * up + 0.4 * heading + Vec3::Z * 0.15
-            }
-            Class::Flower => 0.9 * heading + Vec3::Z * 0.35,
-            _ => Vec3::new(heading.x, heading.y, 0.0).normalize_or(Vec3::NEG_Y) + Vec3::Z * 0.2,
-        };
-        Self {
-            points: scene.mesh_of(organ).vertices.iter().map(Vertex::position).collect(),
-            from: from.normalize_or(Vec3::NEG_Y).to_array(),
-        }
+        of_class(plant, age, class).into_iter().map(|(_, size)| size).reduce(f32::max)
     }
 
     /// Internodes that make up a flower, as a dog rose's, seen from before and above it.
@@ -117,6 +108,21 @@ impl Focus {
     }
 }
 
+/// The unit direction from before an organ.
+fn before(scene: &Scene, organ: OrganId) -> Vec3 {
+    let drawn = scene.organ(organ);
+    let [heading, up] = [drawn.heading, drawn.up].map(Vec3::from_array);
+    let from = match scene.plant().organs.kind[organ.index()].class() {
+        Class::Leaf => {
+            let up = if up.z < 0.0 { -up } else { up };
+            0.85 * up + 0.4 * heading + Vec3::Z * 0.15
+        }
+        Class::Flower => 0.9 * heading + Vec3::Z * 0.35,
+        _ => Vec3::new(heading.x, heading.y, 0.0).normalize_or(Vec3::NEG_Y) + Vec3::Z * 0.2,
+    };
+    from.normalize_or(Vec3::NEG_Y)
+}
+
 /// Whether an internode is what is wanted, or a part of it.
 fn is_of(plant: &Plant, node: NodeId, wanted: Wanted) -> bool {
     use Kind::{PetalInternode, SepalInternode, StamenInternode, StigmaInternode};
@@ -129,8 +135,17 @@ fn is_of(plant: &Plant, node: NodeId, wanted: Wanted) -> bool {
     }
 }
 
-/// The largest organ of a class that stands, with its length times its width, square metres; of equal ones the first.
-fn largest(plant: &Plant, age: Tick, class: Class) -> Option<(OrganId, f32)> {
+/// The largest organs of a class that stand, and those nearly as large, the largest first; of equal ones the first.
+fn largest(plant: &Plant, age: Tick, class: Class) -> Vec<OrganId> {
+    let mut organs = of_class(plant, age, class);
+    organs.sort_by(|a, b| b.1.total_cmp(&a.1).then(a.0.cmp(&b.0)));
+    let least = organs.first().map_or(0.0, |(_, size)| NEARLY * size);
+    organs.into_iter().take(MOST_ASKED).take_while(|(_, size)| *size >= least).map(|(organ, _)| organ).collect()
+}
+
+/// The organs of a class that stand, with their lengths times their widths, square metres; of leaves those that are no
+/// bracts or scales, of a plant that has others.
+fn of_class(plant: &Plant, age: Tick, class: Class) -> Vec<(OrganId, f32)> {
     let organs = (0..plant.organs.len()).map(|organ| OrganId(organ as u32));
     let standing =
         organs.filter(|organ| plant.organs.kind[organ.index()].class() == class && plant.organ_stands(*organ, age));
@@ -138,5 +153,7 @@ fn largest(plant: &Plant, age: Tick, class: Class) -> Option<(OrganId, f32)> {
         let share = plant.expanded(organ, age);
         share * share * plant.organs.length[organ.index()] * plant.organs.width[organ.index()]
     };
-    standing.map(|organ| (organ, size(organ))).reduce(|a, b| if b.1 > a.1 { b } else { a })
+    let is_foliage = |organ: &OrganId| plant.organs.kind[organ.index()].is_foliage();
+    let has_foliage = class == Class::Leaf && plant.organs.kind.iter().any(|kind| kind.is_foliage());
+    standing.filter(|organ| !has_foliage || is_foliage(organ)).map(|organ| (organ, size(organ))).collect()
 }

@@ -21,6 +21,7 @@ mod extent;
 mod film;
 mod focus;
 mod framing;
+mod free;
 mod gaze;
 mod ground;
 mod letters;

@@ -197,12 +197,14 @@ impl<'a> PlacedStand<'a> {
         looks.par_iter().map_init(Scratch::default, one).reduce(|| measured.known, |a, b| a.join(&b))
     }
 
-    /// The light over it, for a sun at an azimuth and an elevation, radians; shadows are as fine as the box that is
-    /// seen allows, and for organs that are drawn from near the grid of the sky is smooth.
-    pub fn light(&self, sun: [f32; 2], (seen, near_by): (Option<[Vec3; 2]>, bool)) -> Light {
+    /// The light over it, for a sun at an azimuth and an elevation, radians. Of an organ in focus the box that is seen
+    /// is given: what stands beyond it throws no shadow, so that an organ within a crown is not dark, and shadows are
+    /// as fine as the box allows. Where organs are large enough to show it the grid of the sky is smooth.
+    pub fn light(&self, sun: [f32; 2], seen: Option<[Vec3; 2]>) -> Light {
         let [low, high] = self.bounds();
         let [near, far] = seen.unwrap_or([low, high]);
-        let (shadow, crown) = (Shadow::over(near, far, sun), Crown::over(low, high, near_by));
+        let smooth = self.bodies.iter().any(|body| body.is_near(seen.is_some()));
+        let (shadow, crown) = (Shadow::over(near, far, sun), Crown::over(low, high, smooth));
         self.each_look(
             |_| true,
             |look, scratch| {
@@ -213,6 +215,9 @@ impl<'a> PlacedStand<'a> {
                 {
                     let vertices = face.indices().map(|index| &mesh.vertices[index as usize]);
                     let corners = vertices.map(|vertex| at(vertex) + *place);
+                    if seen.is_some_and(|seen| is_beyond(&corners, seen)) {
+                        continue;
+                    }
                     shadow.cast(&corners);
                     if body.is_obstacle() {
                         crown.add_obstacle(&corners);
@@ -289,6 +294,12 @@ impl<'a> PlacedStand<'a> {
         let looks = self.looks.par_iter().filter(|look| wanted(look));
         looks.map_init(Scratch::default, |scratch, found| look(found, scratch)).reduce(none, join)
     }
+}
+
+/// Whether a triangle lies outside of a box.
+fn is_beyond([a, b, c]: &[Vec3; 3], [low, high]: [Vec3; 2]) -> bool {
+    let (least, most) = (a.min(*b).min(*c), a.max(*b).max(*c));
+    most.cmplt(low).any() || least.cmpgt(high).any()
 }
 
 /// The blocks that may reach farthest, each measure of an extent by itself.

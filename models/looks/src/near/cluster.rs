@@ -40,7 +40,7 @@ impl Default for Brush {
 #[cfg_attr(feature = "files", derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema))]
 #[cfg_attr(feature = "files", serde(deny_unknown_fields, default))]
 pub struct Cluster {
-    /// How many, in [2, 60].
+    /// How many, in [2, 240].
     pub count: u8,
     /// What each of them is: a form of the library.
     pub form: FormName,
@@ -53,10 +53,21 @@ pub struct Cluster {
     pub width: f32,
     /// The angle between the axis and the outermost, degrees, in [5, 170].
     pub spread_deg: f32,
+    /// The share of the length at which the middle is around which they stand, in [0, 0.8]: 0, a node that bears them;
+    /// above it they fill an ellipsoid, as the fruits of a bunch.
+    #[cfg_attr(feature = "files", serde(skip_serializing_if = "is_at_the_node"))]
+    pub middle: f32,
+}
+
+/// Whether the parts of a cluster stand at its node; left out of files then.
+#[cfg(feature = "files")]
+fn is_at_the_node(middle: &f32) -> bool {
+    *middle == 0.0
 }
 
 impl Default for Cluster {
     fn default() -> Self {
-        Self { count: 8, form: FormName::Berry, flower: None, stalk: 0.4, width: 1.0, spread_deg: 75.0 }
+        let form = FormName::Berry;
+        Self { count: 8, form, flower: None, stalk: 0.4, width: 1.0, spread_deg: 75.0, middle: 0.0 }
     }
 }

@@ -134,12 +134,13 @@ fn bounds_of_brush(brush: &Brush) -> [Bound; 7] {
     ]
 }
 
-fn bounds_of_cluster(cluster: &Cluster) -> [Bound; 4] {
+fn bounds_of_cluster(cluster: &Cluster) -> [Bound; 5] {
     [
-        ("count", f32::from(cluster.count), [2.0, 60.0]),
+        ("count", f32::from(cluster.count), [2.0, 240.0]),
         ("stalk", cluster.stalk, [0.0, 0.9]),
         ("width", cluster.width, [0.05, 4.0]),
         ("spread_deg", cluster.spread_deg, [5.0, 170.0]),
+        ("middle", cluster.middle, [0.0, 0.8]),
     ]
 }
 

@@ -41,8 +41,8 @@ pub fn capitulum(head: &Capitulum, aspect: f32, detail: u8) -> FormMesh {
     leaves(
         &mut build,
         &sepal,
-        (head.bracts, 0.55 * (radius - disc).max(0.3 * disc), 0.4),
-        (RIM - 0.06, disc, 100.0),
+        (head.bracts, 0.7 * (radius - disc).max(0.5 * disc), 0.4),
+        (RIM - 0.14, 0.8 * disc, 84.0),
         1,
     );
     build.tint = RAY;

@@ -1,6 +1,7 @@
 //! Flowers or fruits that stand together at a node, each on its stalk or none.
 //!
-//! They stand golden angles apart around the axis, evenly over the cap of a sphere, and reach the side of the box.
+//! They stand golden angles apart around the axis, evenly over the cap of a sphere, and reach the side of the box;
+//! those of a bunch stand around its middle and fill an ellipsoid.
 //! Where an area is stated each is larger or smaller about the end of its own stalk. Absent: their number and their
 //! kind (`phytomer_looks::Cluster`).
 
@@ -15,8 +16,9 @@ pub fn cluster(cluster: &Cluster, aspect: f32, detail: u8) -> FormMesh {
     let mut build = Build::default();
     let part = part_of(cluster, detail);
     let (widest, least) = sincosf(cluster.spread_deg.to_radians());
-    // All are of one length, with which the outermost reach the side of the box.
-    let reach = (0.5 * aspect / if least < 0.0 { 1.0 } else { widest.max(0.3) }).min(1.0);
+    // At a node all are of one length, with which the outermost reach the side of the box.
+    let equal = (0.5 * aspect / if least < 0.0 { 1.0 } else { widest.max(0.3) }).min(1.0);
+    let middle = [cluster.middle, 0.0, 0.0];
     for number in 0..cluster.count {
         // Even over the cap of a sphere.
         let share = (f32::from(number) + 0.5) / f32::from(cluster.count);
@@ -24,7 +26,24 @@ pub fn cluster(cluster: &Cluster, aspect: f32, detail: u8) -> FormMesh {
         let sin = (1.0 - cos * cos).max(0.0).sqrt();
         let out = flower::around((f32::from(number) * GOLDEN_DEG % 360.0) / 360.0);
         let ahead = sum(&[(cos, [1.0, 0.0, 0.0]), (sin, out)]);
-        stand(&mut build, &part, (ahead, reach), cluster);
+        let reach = if cluster.middle > 0.0 {
+            // An ellipsoid from the base of the box to its end.
+            let half = if cos < 0.0 { cluster.middle } else { 1.0 - cluster.middle };
+            let [along, aside] = [cos / half, sin / (0.5 * aspect).max(1e-3)];
+            1.0 / (along * along + aside * aside).sqrt().max(1e-3)
+        } else {
+            equal
+        };
+        stand(&mut build, &part, (middle, ahead, reach), cluster);
+    }
+    if cluster.middle > 0.0 {
+        // What bears them, which is seen between them.
+        let wide = 0.5 * aspect * (0.4 + 0.6 * cluster.stalk);
+        let line = [(0.0, 0.25), (0.12, 0.5), (0.3, 0.85), (0.5, 1.0), (0.7, 0.85), (0.88, 0.5), (0.97, 0.1)];
+        let line = line.map(|(along, out)| ([along, 0.0, 0.0], out * wide));
+        build.stalk = true;
+        sheet::tube(&mut build, &line, [0.0, 0.0, 1.0], 6 + 2 * u16::from(detail));
+        build.stalk = false;
     }
     build.into_form(aspect, Depth::Width, true)
 }
@@ -41,11 +60,11 @@ fn part_of(cluster: &Cluster, detail: u8) -> FormMesh {
 }
 
 /// Adds one of them on its stalk.
-fn stand(build: &mut Build, part: &FormMesh, (ahead, reach): (Vector, f32), cluster: &Cluster) {
+fn stand(build: &mut Build, part: &FormMesh, (middle, ahead, reach): (Vector, Vector, f32), cluster: &Cluster) {
     let foot = cluster.stalk * reach;
-    let base = sum(&[(foot, ahead)]);
+    let base = sum(&[(1.0, middle), (foot, ahead)]);
     let length = reach - foot;
-    if cluster.stalk > 0.02 {
+    if cluster.stalk > 0.02 && cluster.middle <= 0.0 {
         let thin = 0.03 * length * cluster.width.min(1.0);
         build.stalk = true;
         sheet::tube(build, &[([0.0; 3], thin), (sum(&[(1.02, base)]), thin)], [0.0, 0.0, 1.0], 4);
