@@ -15,8 +15,9 @@ use std::ops::Range;
 /// Room for the words of more things of one kind than a node has, in blocks.
 const MOST_ON_NODE: usize = 64 / WORDS_OF_BLOCK;
 
-/// The fewest buds of one order, one after another, that make their nodes together.
-pub(super) const MANY_ALIKE: usize = 6;
+/// The fewest buds of one order, one after another, that make their nodes together, as measured: blocks of fewer take
+/// fewer instructions, but more time.
+pub(super) const MANY_ALIKE: usize = 24;
 
 /// The words that an axis which goes through many steps reads at once, the first time and later: blocks of a stream are
 /// made faster many at once, but an axis may die soon.
