@@ -133,7 +133,7 @@ impl Stems {
         near.clear();
         self.each_plant_near(point, reach, spared, &mut |plant| {
             let of = &self.plants[plant as usize];
-            let (at, cells) = (of.from_seed(point), of.cells());
+            let (at, cells) = (of.seen_from_seed(point), of.cells());
             let mut asked = |node: u32| {
                 let stem = &of.stems[node as usize];
                 if self.is_met(of, stem, spared) && stem.is_near(at, reach) {

@@ -110,7 +110,7 @@ impl Beside {
             let Self { stems, about, .. } = self;
             stems.clear();
             for (plant, stem) in about.iter().map(|which| all.get(*which)) {
-                let is_near = |(point, reach): (Point, f64)| stem.is_near(plant.from_seed(point), reach);
+                let is_near = |(point, reach): (Point, f64)| stem.is_near(plant.seen_from_seed(point), reach);
                 if is_near((point, reach + ROUNDING)) && is_near(ball) {
                     stems.push(Near::of(stem, plant.place, plant.number));
                 }

@@ -140,13 +140,13 @@ impl OfPlant {
     }
 
     /// A point of the plot, metres from the seed.
-    pub(super) fn from_seed(&self, [x, y, z]: Point) -> Point {
+    pub(super) fn seen_from_seed(&self, [x, y, z]: Point) -> Point {
         [x - self.place[0], y - self.place[1], z - self.place[2]]
     }
 
     /// Whether no stem that counts is nearer than `reach` to a point of the plot, as far as few cells tell.
     pub(super) fn is_far(&self, point: Point, reach: f64, counts: impl Fn(&Self, &Stem) -> bool) -> bool {
-        let (at, cells) = (self.from_seed(point), self.cells());
+        let (at, cells) = (self.seen_from_seed(point), self.cells());
         let Some(range) = cells.about(at, reach) else { return false };
         let mut far = true;
         cells.each_in(&range, |node| {
