@@ -9,6 +9,7 @@
 use super::chunk::{Chunk, Counts, Face, Sink, Tag, Vertex};
 use super::columns::Columns;
 use super::detail::{Detail, Primitive};
+use super::drawn_organ::DrawnOrgan;
 use super::dress::{Crown, is_leaf};
 use super::forms::{FormMesh, Placement};
 use super::near::{self, NearForm, Nears};
@@ -44,26 +45,6 @@ pub struct Scene<'a> {
     columns: Option<Columns<'a>>,
     /// The forms of organs seen from near; none at detail 0.
     nears: Option<Arc<Nears>>,
-}
-
-/// An organ as it is drawn: where, how large and in what colours.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct DrawnOrgan {
-    /// Its base, metres.
-    pub base: [f32; 3],
-    /// The unit vector along it.
-    pub heading: [f32; 3],
-    /// The unit vector of its upper side.
-    pub up: [f32; 3],
-    /// Its length and width at its age, metres, and 0; of an organ with an outline of its own the share of it, twice,
-    /// and 0; of a curved surface the factors along the organ, to its left and to its upper side.
-    pub size: [f32; 3],
-    /// How much fuller it is than its form, so that it has its area.
-    pub fullness: f32,
-    /// The colours of the organ and of its stalk.
-    pub colours: [[u8; 4]; 2],
-    /// The form that it has instead of that of its column.
-    pub own: OwnForm,
 }
 
 impl<'a> Scene<'a> {
