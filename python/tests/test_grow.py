@@ -142,6 +142,11 @@ class Faults(unittest.TestCase):
 
 
 class Interrupts(unittest.TestCase):
+    def setUp(self) -> None:
+        # A shell starts what runs in its background with Ctrl-C ignored, and Python leaves that as it is.
+        before = signal.signal(signal.SIGINT, signal.default_int_handler)
+        self.addCleanup(signal.signal, signal.SIGINT, before)
+
     def interrupted(self, scenario: dict, **options: object) -> float:
         """Grows, hears Ctrl-C after half a second, and returns how many seconds later the exception came."""
         sent: list[float] = []

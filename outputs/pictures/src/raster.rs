@@ -102,20 +102,25 @@ pub fn turn(corners: &[Vec3; 3]) -> f32 {
     (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x)
 }
 
-/// Calls `put` with every sample of `window` that the triangle covers; corners are in columns, rows and depth.
+/// The corners of a triangle from top to bottom, by their rows.
 #[inline]
-pub fn cover(corners: &[Vec3; 3], window: &Window, mut put: impl FnMut(Sample)) {
-    let [mut a, mut b, mut c] = *corners;
-    // Sort the corners from top to bottom.
-    if b.y < a.y {
+pub fn from_top<T>([mut a, mut b, mut c]: [T; 3], row: impl Fn(&T) -> f32) -> [T; 3] {
+    if row(&b) < row(&a) {
         std::mem::swap(&mut a, &mut b);
     }
-    if c.y < b.y {
+    if row(&c) < row(&b) {
         std::mem::swap(&mut b, &mut c);
-        if b.y < a.y {
+        if row(&b) < row(&a) {
             std::mem::swap(&mut a, &mut b);
         }
     }
+    [a, b, c]
+}
+
+/// Calls `put` with every sample of `window` that the triangle covers; corners are in columns, rows and depth.
+#[inline]
+pub fn cover(corners: &[Vec3; 3], window: &Window, mut put: impl FnMut(Sample)) {
+    let [a, b, c] = from_top(*corners, |corner| corner.y);
     let Some(rows) = between(a.y - 0.5, c.y - 0.5, &window.rows) else { return };
     // Corners that are NaN give no rows, so all values below are finite.
     let depth = Plane::through(corners, corners.map(|corner| corner.z));

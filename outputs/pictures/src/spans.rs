@@ -6,7 +6,7 @@
 //! the number of threads has an effect. For that the box of a component is taken wider than rounding can move its
 //! samples. Absent: depths and colours (`raster`, `film`), and the lattice (`sides`).
 
-use super::raster::{above, below, between};
+use super::raster::{above, below, between, from_top};
 use glam::{Vec3, Vec4};
 use phytomer_meshes::{Held, TakePlaces, meeting};
 use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
@@ -156,17 +156,8 @@ impl<'s, 'l> Pen<'s, 'l> {
         bounds
     }
 
-    fn triangle(&self, [mut a, mut b, mut c]: [Seen; 3]) {
-        // From top to bottom.
-        if b.y < a.y {
-            std::mem::swap(&mut a, &mut b);
-        }
-        if c.y < b.y {
-            std::mem::swap(&mut b, &mut c);
-            if b.y < a.y {
-                std::mem::swap(&mut a, &mut b);
-            }
-        }
+    fn triangle(&self, corners: [Seen; 3]) {
+        let [a, b, c] = from_top(corners, |corner| corner.y);
         let Some(rows) = between(a.y - 0.5, c.y - 0.5, &(0..self.sheet.lattice.rows)) else { return };
         let long = slope(a, c);
         // Above and below the middle corner; a small triangle often has rows on one side of it alone.

@@ -13,12 +13,15 @@ use super::wanted::Wanted;
 use super::{Balance, Source};
 use crate::shape::Point;
 
+/// Of each wanted voxel, the intensity along the ways of beams in it, summed over the ways, and the ways, metres; the
+/// intensity on open ground is 1.
+pub type Along = Vec<[f64; 2]>;
+
 /// The light of one source.
 #[derive(Debug)]
 pub struct Shone {
-    /// Of each wanted voxel, the intensity along the ways of beams in it, summed over the ways, and the ways, metres;
-    /// the intensity on open ground is 1.
-    pub along: Vec<[f64; 2]>,
+    /// The light along the ways of its beams.
+    pub along: Along,
     /// What becomes of the light, m² across the beams.
     pub balance: Balance,
     /// The area across one beam, m².
@@ -26,9 +29,11 @@ pub struct Shone {
 }
 
 /// Sends the beams of a source through a grid whose wanted voxels have these extinctions, 1/m; the others have none.
-pub fn shine(grid: &Grid, wanted: &Wanted, extinction: &[f64], shadows: &Shadows, source: &Source) -> Shone {
-    let mut shone = Shone { along: vec![[0.0; 2]; extinction.len()], balance: Balance::default(), section: 0.0 };
-    let wanted = (wanted, extinction);
+/// `room` is memory for the result.
+pub fn shine(grid: &Grid, wanted: (&Wanted, &[f64]), shadows: &Shadows, source: &Source, mut room: Along) -> Shone {
+    room.clear();
+    room.resize(wanted.1.len(), [0.0; 2]);
+    let mut shone = Shone { along: room, balance: Balance::default(), section: 0.0 };
     each_beam(grid, source, shadows.top(), &mut |beam| follow(grid, wanted, shadows, beam, &mut shone));
     shone
 }

@@ -5,7 +5,7 @@
 //! have in it on average, and keeps what they leave there. A voxel that the beams of a source miss is asked at its
 //! middle. Absent: beams (`sweep`, `beam`), and what a canopy is (`canopy`).
 
-use super::beam::{self, Shone, depth_towards};
+use super::beam::{self, Along, Shone, depth_towards};
 use super::canopy::{Canopy, Piece};
 use super::grid::{BITS, Grid, UNITS, VOXELS};
 use super::normals::{CLASSES, axes, met};
@@ -106,17 +106,22 @@ impl Field {
         let even = wanted.indices().map(|index| self.extinction(index, None)).collect::<Vec<f64>>();
         let mut sums = vec![[0.0; 2]; wanted.count()];
         let mut balance = Balance::default();
+        // The memory of some sources goes on to the next ones, so that the system need not clear it anew.
+        let mut rooms = vec![Along::new(); AT_ONCE.min(self.sources.len())];
         for some in self.sources.chunks(AT_ONCE) {
-            let one = |source: &Source| self.shone(wanted, &even, &shadows, source);
-            let shone: Vec<Shone> = some.par_iter().with_max_len(1).map(one).collect();
+            let one = |(source, room): (&Source, &mut Along)| {
+                self.shone(wanted, &even, &shadows, source, std::mem::take(room))
+            };
+            let shone: Vec<Shone> = some.par_iter().zip(&mut rooms).with_max_len(1).map(one).collect();
             balance = add(&mut sums, balance, some, &shone);
+            rooms.iter_mut().zip(shone).for_each(|(room, shone)| *room = shone.along);
         }
         let (light, kept) = sums.into_iter().map(|[share, lost]| (share.min(1.0), lost)).unzip();
         (light, kept, balance)
     }
 
     /// The light of one source. `along` has of each wanted voxel the share of its light and what it keeps of it.
-    fn shone(&self, wanted: &Wanted, even: &[f64], shadows: &Shadows, source: &Source) -> Shone {
+    fn shone(&self, wanted: &Wanted, even: &[f64], shadows: &Shadows, source: &Source, room: Along) -> Shone {
         let extinction: Cow<[f64]> = match self.lighting.projection {
             Projection::Even(_) => even.into(),
             Projection::OfLeaves => {
@@ -125,9 +130,9 @@ impl Field {
             }
         };
         let mut shone = if self.grid.repeats() || !shadows.is_empty() {
-            beam::shine(&self.grid, wanted, &extinction, shadows, source)
+            beam::shine(&self.grid, (wanted, &extinction), shadows, source, room)
         } else {
-            sweep::shine(&self.grid, wanted, &extinction, source)
+            sweep::shine(&self.grid, wanted, &extinction, source, room)
         };
         let missed = shone.along.iter_mut().zip(wanted.indices()).filter(|(sums, _)| sums[1] == 0.0);
         for (sums, index) in missed {

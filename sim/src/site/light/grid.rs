@@ -97,6 +97,11 @@ impl Grid {
         self.edges[0] * self.edges[1] * self.edges[2]
     }
 
+    /// The least and the largest places of bricks.
+    pub(super) fn span(&self) -> [[i32; 3]; 2] {
+        [self.least, self.most]
+    }
+
     /// Whether the plot repeats.
     pub fn repeats(&self) -> bool {
         self.period[0] != i32::MAX

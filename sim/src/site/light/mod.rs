@@ -26,6 +26,7 @@ pub mod sky;
 pub mod spot;
 pub mod sun;
 pub mod sweep;
+mod tiles;
 pub mod wanted;
 
 #[cfg(test)]

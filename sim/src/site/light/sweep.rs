@@ -8,19 +8,18 @@
 //! voxel. Machines that hold four numbers in a register ask the four beams at once (`four`).
 //! Absent: plots that repeat and opaque shapes, for which beams are followed one by one (`beam`).
 
-use super::beam::Shone;
+use super::beam::{Along, Shone};
 #[cfg(target_arch = "x86_64")]
 use super::four;
 use super::grid::{BITS, EDGE, Grid};
 use super::lattice::{across, shift_of};
 use super::loss::{Pair, lost_of_each, plus, times};
 use super::spot::{FINE, rounded};
+use super::tiles::{TILE, Tiles};
 use super::wanted::Wanted;
 use super::{Balance, Source};
 use crate::shape::Point;
 
-/// The beams along an edge of a tile, as a power of 2.
-const TILE: u32 = 3;
 /// The beams along an edge of a tile.
 const SIDE: usize = 1 << TILE;
 /// The tiles along an edge about a brick: it is at most 8 √3 edges wide and meets three; a power of 2.
@@ -58,8 +57,7 @@ struct View {
 struct Beams {
     view: View,
     rays: Vec<Ray>,
-    places: Vec<[i32; 2]>,
-    table: Vec<u32>,
+    tiles: Tiles,
 }
 
 /// Two beams of a row that may meet a voxel.
@@ -84,39 +82,40 @@ struct About {
 }
 
 /// Sends the beams of a source through the wanted voxels of a grid on open ground, which have these extinctions, 1/m.
+/// `room` is memory for the result.
 #[allow(unsafe_code, reason = "the call of a function whose instructions not every machine has")]
-pub fn shine(grid: &Grid, wanted: &Wanted, extinction: &[f64], source: &Source) -> Shone {
+pub fn shine(grid: &Grid, wanted: &Wanted, extinction: &[f64], source: &Source, room: Along) -> Shone {
     #[cfg(target_arch = "x86_64")]
     if is_x86_feature_detected!("avx2") {
         // SAFETY: safe code without a pointer; the call asks only that the machine has its instructions, as it says.
-        return unsafe { shine_by_fours(grid, wanted, extinction, source) };
+        return unsafe { shine_by_fours(grid, wanted, extinction, source, room) };
     }
-    shine_by_pairs(grid, wanted, extinction, source)
+    shine_by_pairs(grid, wanted, extinction, source, room)
 }
 
 /// By the registers of any machine.
-pub(super) fn shine_by_pairs(grid: &Grid, wanted: &Wanted, extinction: &[f64], source: &Source) -> Shone {
-    shine_by(grid, wanted, extinction, source, |beams, about, voxel, k| beams.cross(about, voxel, k))
+pub(super) fn shine_by_pairs(grid: &Grid, wanted: &Wanted, extinction: &[f64], source: &Source, room: Along) -> Shone {
+    shine_by((grid, wanted, extinction), source, room, |beams, about, voxel, k| beams.cross(about, voxel, k))
 }
 
 /// The same, by registers of four numbers.
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx2")]
-fn shine_by_fours(grid: &Grid, wanted: &Wanted, extinction: &[f64], source: &Source) -> Shone {
-    shine_by(grid, wanted, extinction, source, |beams, about, voxel, k| beams.cross_by_fours(about, voxel, k))
+fn shine_by_fours(grid: &Grid, wanted: &Wanted, extinction: &[f64], source: &Source, room: Along) -> Shone {
+    shine_by((grid, wanted, extinction), source, room, |beams, about, voxel, k| beams.cross_by_fours(about, voxel, k))
 }
 
 #[inline(always)]
 fn shine_by(
-    grid: &Grid,
-    wanted: &Wanted,
-    extinction: &[f64],
+    (grid, wanted, extinction): (&Grid, &Wanted, &[f64]),
     source: &Source,
+    mut along: Along,
     cross: impl Fn(&mut Beams, &About, [usize; 3], f64) -> (Pair, f64),
 ) -> Shone {
     let edge = grid.edges[0];
-    let mut beams = Beams::of(source, edge);
-    let mut along = vec![[0.0; 2]; extinction.len()];
+    let mut beams = Beams::of(source, grid);
+    // Each wanted voxel is written below.
+    along.resize(extinction.len(), [0.0; 2]);
     let way = source.towards.map(|x| -x);
     let mut kept = 0.0;
     for &brick in wanted.order(way) {
@@ -145,6 +144,25 @@ impl View {
         Self { axes, half, faces }
     }
 
+    /// The least and the largest column and row of tiles whose beams may meet the voxels of a box, whose corners are
+    /// edges of a voxel from a middle that is seen there.
+    fn tiles(&self, seen: [f64; 2], corners: [Point; 2]) -> [[i64; 2]; 2] {
+        let mut ends = [[0_i64; 2]; 2];
+        for (k, axis) in self.axes.into_iter().enumerate() {
+            let (mut below, mut above) = (0.0, 0.0);
+            for of in 0..3 {
+                let [one, other] = corners.map(|corner| axis[of] * corner[of]);
+                (below, above) = (below + one.min(other), above + one.max(other));
+            }
+            // Rows are shifted by up to 1 in the direction of the first axis.
+            let shift = [1.0, 0.0][k];
+            let low = seen[k] + below - self.half[k] - 0.5 - shift;
+            let high = seen[k] + above + self.half[k] - 0.5;
+            (ends[0][k], ends[1][k]) = (low.floor() as i64 >> TILE, high.floor() as i64 >> TILE);
+        }
+        ends
+    }
+
     /// A place, in edges of a voxel, as the light sees it.
     fn seen(&self, place: Point) -> [f64; 2] {
         self.axes.map(|axis| axis[0] * place[0] + axis[1] * place[1] + axis[2] * place[2])
@@ -152,10 +170,16 @@ impl View {
 }
 
 impl Beams {
-    fn of(source: &Source, edge: f64) -> Self {
+    fn of(source: &Source, grid: &Grid) -> Self {
+        let view = View::of(source, grid.edges[0]);
+        // The bricks of a grid as one box; rounding may add a tile on each side.
+        let [least, most] = grid.span().map(|place| place.map(f64::from));
+        let voxels = [0, 1, 2].map(|k| (most[k] - least[k] + 1.0) * f64::from(EDGE) - 1.0);
+        let seen = view.seen(least.map(|place| place * f64::from(EDGE) + 0.5));
+        let [least, most] = view.tiles(seen, [[0.0; 3], voxels]);
+        let tiles = Tiles::of([least.map(|of| of - 1), most.map(|of| of + 1)], grid.bricks.len());
         let beyond = Ray { at: [1e9; 2], light: 0.0 };
-        let (rays, places) = (vec![beyond; SIDE * SIDE], vec![[i32::MIN; 2]]);
-        Self { view: View::of(source, edge), rays, places, table: vec![0; 64] }
+        Self { view, rays: vec![beyond; SIDE * SIDE], tiles }
     }
 
     /// All beams that were sent, and what is left of them.
@@ -166,69 +190,32 @@ impl Beams {
 
     /// The beams about the voxels of a brick in a box.
     fn about(&mut self, brick: [i32; 3], filled: [[u8; 3]; 2]) -> About {
-        let corners = filled.map(|corner| corner.map(f64::from));
         let first = brick.map(|place| f64::from(place << BITS) + 0.5);
         let seen = self.view.seen(first);
-        let mut ends = [[0_i64; 2]; 2];
-        for (k, axis) in self.view.axes.into_iter().enumerate() {
-            let (mut below, mut above) = (0.0, 0.0);
-            for of in 0..3 {
-                let [one, other] = corners.map(|corner| axis[of] * corner[of]);
-                (below, above) = (below + one.min(other), above + one.max(other));
-            }
-            // Rows are shifted by up to 1 in the direction of the first axis.
-            let shift = [1.0, 0.0][k];
-            let low = seen[k] + below - self.view.half[k] - 0.5 - shift;
-            let high = seen[k] + above + self.view.half[k] - 0.5;
-            ends[k] = [low, high].map(|end| end.floor() as i64 >> TILE);
-        }
-        let [[left, right], [low, high]] = ends;
+        let [[left, low], [right, high]] = self.view.tiles(seen, filled.map(|corner| corner.map(f64::from)));
         let (mut tiles, mut shifts) = ([0; ABOUT * ABOUT], [0.0; BEAMS]);
         for (row, tiles) in (low..=high).zip(tiles.chunks_exact_mut(ABOUT)) {
-            (left..=right)
-                .zip(tiles)
-                .for_each(|(column, tile)| *tile = self.tile([column as i32, row as i32]) << (2 * TILE));
+            (left..=right).zip(tiles).for_each(|(column, tile)| *tile = self.tile([column, row]) << (2 * TILE));
         }
-        for (shift, row) in shifts.iter_mut().zip(low << TILE..(high + 1) << TILE) {
-            *shift = shift_of(row);
-        }
+        let rows = ((high - low + 1) << TILE) as usize;
+        self.tiles.shifts(low, &mut shifts[..rows.min(BEAMS)]);
         let middle = [seen[0] - (left << TILE) as f64, seen[1] - (low << TILE) as f64];
         About { tiles, middle, shifts }
     }
 
     /// The number of a tile, which is made if need be.
-    fn tile(&mut self, place: [i32; 2]) -> u32 {
-        let mut slot = self.slot(place);
-        if self.table[slot] == 0 {
-            if self.places.len() * 2 > self.table.len() {
-                self.table = vec![0; self.table.len() * 4];
-                for tile in 1..self.places.len() {
-                    let slot = self.slot(self.places[tile]);
-                    self.table[slot] = tile as u32;
-                }
-                slot = self.slot(place);
-            }
-            self.table[slot] = self.places.len() as u32;
-            self.places.push(place);
+    #[inline]
+    fn tile(&mut self, place: [i64; 2]) -> u32 {
+        let (number, is_new) = self.tiles.number(place);
+        if is_new {
             self.add_tile(place);
         }
-        self.table[slot]
-    }
-
-    /// Where a tile is in the table, or where there is room for it.
-    fn slot(&self, [column, row]: [i32; 2]) -> usize {
-        let mask = self.table.len() - 1;
-        let packed = u64::from(column as u32) ^ (u64::from(row as u32) << 32);
-        let mut slot = (packed.wrapping_mul(0x9e37_79b9_7f4a_7c15) >> 32) as usize & mask;
-        while self.table[slot] != 0 && self.places[self.table[slot] as usize] != [column, row] {
-            slot = (slot + 1) & mask;
-        }
-        slot
+        number
     }
 
     /// The beams of a tile of the lattice. They begin at places that are rounded as all places are.
-    fn add_tile(&mut self, place: [i32; 2]) {
-        let [left, low] = place.map(|place| i64::from(place) << TILE);
+    fn add_tile(&mut self, place: [i64; 2]) {
+        let [left, low] = place.map(|place| place << TILE);
         for row in low..low + SIDE as i64 {
             let (v, shift) = (row as f64 + 0.5, 0.5 + shift_of(row));
             for column in left..left + SIDE as i64 {

@@ -38,8 +38,8 @@ fn voxels_find_what_beams_leave_in_them() {
         sources.push(Source { towards, weight: 1.0 });
     }
     for source in sources {
-        let asked = sweep::shine(&grid, &wanted, &extinction, &source);
-        let followed = beam::shine(&grid, &wanted, &extinction, &shadows, &source);
+        let asked = sweep::shine(&grid, &wanted, &extinction, &source, Vec::new());
+        let followed = beam::shine(&grid, (&wanted, &extinction), &shadows, &source, Vec::new());
         let (mut met, edge) = (0, lighting.voxel_m);
         for (one, other) in asked.along.iter().zip(&followed.along) {
             assert!(near(one[0], other[0], edge) && near(one[1], other[1], edge), "{source:?}: {one:?} {other:?}");
@@ -51,8 +51,9 @@ fn voxels_find_what_beams_leave_in_them() {
         // Whatever registers the machine has, also where leaves are so dense that exponentials are needed.
         for factor in [1.0, 400.0] {
             let dense: Vec<f64> = extinction.iter().map(|k| k * factor).collect();
-            let asked = sweep::shine(&grid, &wanted, &dense, &source);
-            let by_pairs = sweep::shine_by_pairs(&grid, &wanted, &dense, &source);
+            // Memory that has held other light does not show.
+            let asked = sweep::shine(&grid, &wanted, &dense, &source, vec![[f64::NAN; 2]; 7]);
+            let by_pairs = sweep::shine_by_pairs(&grid, &wanted, &dense, &source, vec![[2.0; 2]; 100_000]);
             assert_eq!(asked.along, by_pairs.along, "{source:?}");
             assert_eq!(asked.balance, by_pairs.balance, "{source:?}");
         }
