@@ -2,11 +2,12 @@
 //! first.
 //!
 //! A level has at most so many triangles. First the tolerance of its wood and of the forms of its organs grows, as long
-//! as the outline holds; where that is not enough, organs become fewer and larger ([`Thinned`]). Each level keeps some
-//! of the organs of the level before. An outline holds where its area differs by at most [`MOST_APART`] from that of
-//! the first level, from each of eight sides (`sides`). Tolerances are tried on the grid of `budget`, thirty-two steps
-//! an octave; the number of triangles falls with them nearly as a power, so that a few trials find one that fits, and
-//! the same wherever it is asked. Absent: how levels are written, and cards, which stand for the last.
+//! as the outline holds; where that is not enough, organs become fewer and larger ([`phytomer_meshes::Thinned`]). Each
+//! level keeps some of the organs of the level before. An outline holds where its area differs by at most
+//! [`MOST_APART`] from that of the first level, from each of eight sides (`sides`). Tolerances are tried on the grid of
+//! `budget`, thirty-two steps an octave; the number of triangles falls with them nearly as a power, so that a few
+//! trials find one that fits, and the same wherever it is asked. Absent: how levels are written, and cards, which stand
+//! for the last.
 
 use super::costs::Costs;
 use super::sides::{Apart, Outline, Sides};
