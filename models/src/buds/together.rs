@@ -61,7 +61,7 @@ impl NodeWords {
 /// Seeks the blocks of a stream in which some of its words stand.
 #[inline]
 fn seek(sought: &mut Vec<Sought>, stream: u64, words: Range<u64>) {
-    // Most often it is one.
+    // Most often the count is one.
     let (mut block, end) = (words.start / WORDS_OF_BLOCK as u64, words.end.div_ceil(WORDS_OF_BLOCK as u64));
     while block < end {
         sought.push(Sought { stream, block });

@@ -71,7 +71,7 @@ pub fn cards(scene: &Scene) -> Option<(Cards, Apart)> {
     let by_turns = look.bounds(&tiles);
     let (mut bounds, mut apart) = (by_turns, look.apart(&tiles, &by_turns));
     if apart.area > MOST_APART {
-        // By turns some cards have taken all and left nothing to others.
+        // The search card by card may end with some cards opaque and others empty.
         let together = look.bounds_together(&tiles);
         let found = look.apart(&tiles, &together);
         if found.area < apart.area {

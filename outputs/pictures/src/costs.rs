@@ -43,7 +43,7 @@ pub struct Costs {
 impl Costs {
     /// The organs of a scene, for steps of tolerances of these distances, metres, in their order.
     pub fn of(scene: &Scene, distances: &[f32]) -> Self {
-        // What never becomes less is below every share.
+        // An organ of a kind that never becomes fewer has a number that every share keeps.
         let concerned = |organ: &OrganId| Thinned::concerns(scene.plant(), *organ);
         let number =
             |organ: OrganId| Some(organ).filter(concerned).map_or(-1.0, |organ| organ_number(scene.plant(), organ));

@@ -13,8 +13,9 @@ use phytomer_sim::Tick;
 use phytomer_sim::math::{asinf, atan2f};
 use phytomer_sim::plant::{Class, Kind, NodeId, OrganId, Plant};
 
-/// How much smaller than the largest organ one may be that is taken because it is freely seen, and how many are asked.
+/// The least size of an organ that is taken because it is freely seen, as a share of the largest.
 const NEARLY: f32 = 0.8;
+/// The most organs whose views are looked at.
 const MOST_ASKED: usize = 12;
 
 /// What a picture is to show.

@@ -43,7 +43,7 @@ struct Sight {
 pub fn freest(scene: &Scene, organs: &[(OrganId, Vec3)]) -> Option<(OrganId, Vec3)> {
     let sights: Vec<Sight> =
         organs.iter().enumerate().flat_map(|(place, organ)| sights(scene, place, *organ)).collect();
-    // What hides has few polygons, but the stalks that it has from near.
+    // The parts that may hide an organ are drawn at detail 1 at most: few polygons, but leaves have their stalks.
     let detail = scene.options().detail.min(1);
     let plain = Scene::new(scene.plant(), scene.age(), &MeshOptions { detail, ..scene.options().clone() });
     (0..plain.blocks()).into_par_iter().for_each_init(Mesh::default, |mesh, block| {
@@ -84,7 +84,7 @@ fn sights(scene: &Scene, place: usize, (organ, from): (OrganId, Vec3)) -> Vec<Si
     let aside = from.cross(Vec3::Z).normalize_or(Vec3::X);
     let axes = [Vec3::Z, -Vec3::Z, aside, -aside];
     let turned = AWAY.iter().flat_map(|away| axes.map(|axis| turned(from, axis, *away)));
-    // Nothing is looked at from far below, but what looks there itself.
+    // Views from far below are left out, unless the organ itself faces down.
     std::iter::once(from).chain(turned.filter(|from| from.z > LOWEST)).map(sight).collect()
 }
 

@@ -187,7 +187,7 @@ impl TakePlaces for Bounds {
 }
 
 impl Outline {
-    /// What it or another on the same lattices covers.
+    /// The outline of the samples that this or another outline, on the same lattices, covers.
     pub fn with(&self, other: &Self) -> Self {
         let bits = self.bits.iter().zip(&other.bits).map(|(one, other)| one | other).collect();
         Self { bits, words: self.words }

@@ -70,7 +70,7 @@ impl<'l> Sheet<'l> {
         Self { lattice, words, bits }
     }
 
-    /// The words.
+    /// The covered samples as bits, row by row and direction by direction.
     pub fn into_bits(self) -> Vec<u64> {
         self.bits.into_iter().map(AtomicU64::into_inner).collect()
     }

@@ -29,7 +29,7 @@ pub struct Tiles {
 }
 
 impl Tiles {
-    /// For as many bricks, whose tiles have columns and rows from `least` to `most`.
+    /// The tiles about so many bricks, in the columns and rows from `least` to `most`; none is met yet.
     pub fn of([least, most]: [[i64; 2]; 2], bricks: usize) -> Self {
         let [columns, rows] = [0, 1].map(|k| most[k].abs_diff(least[k]).saturating_add(1));
         let all = columns.saturating_mul(rows);
@@ -128,7 +128,7 @@ mod tests {
         }
         assert_eq!(new + 1, all.count);
         assert!(new > 2_000, "{new} tiles are met");
-        // Bricks without number are refused a table of all tiles, however far apart they lie.
+        // Even a million bricks get no table of all tiles where they lie too far apart.
         let far = [[i64::from(i32::MIN); 2], [i64::from(i32::MAX); 2]];
         assert!(Tiles::of(far, 1 << 20).within.is_none());
     }

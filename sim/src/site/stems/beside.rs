@@ -36,7 +36,7 @@ pub struct Beside {
     known: bool,
     /// All stems of a ball, of which those beside the bud are found as the shoot grows through it.
     about: Vec<Which>,
-    /// This ball.
+    /// The middle and the radius of that ball, metres; a radius of 0 before stems are asked.
     asked: (Point, f64),
 }
 
