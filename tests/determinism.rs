@@ -3,7 +3,8 @@
 //! Known hashes (`tests/data/*.sha256`) are of a bush in its pose at rest, and of trees that bend in a wind, with the
 //! columns of mechanics. Where a change of growth or of a format is intended,
 //! `PHYTOMER_BLESS=1 cargo test --test determinism` writes new hashes. Where `PHYTOMER_RELEASE` names the program of
-//! the same sources in the release profile, that program writes the bytes of the one that is tested.
+//! the same sources in the release profile, that program writes the bytes of the one that is tested,
+//! pictures too.
 
 #[path = "program/absent.rs"]
 mod absent;
@@ -13,9 +14,9 @@ use phytomer::config::{Kind, Resolved, presets, validate};
 use phytomer::run::{self, Program, Progress, Settings, seed_of};
 use phytomer::sim::Plot;
 use phytomer::sim::plant::ThreadBudget;
-use program::{PROGRAM, data, hashes, program_at, run as phytomer, said};
+use program::{PROGRAM, data, hashes, program_at, run as phytomer, said, sha256};
 use std::collections::BTreeMap;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// Trees of an L-system that draws, asks where it stands and is pruned.
 const CUBE: &str = r#"
@@ -171,27 +172,31 @@ fn another_seed_gives_other_plants() {
     assert!(grown[0].iter().all(|(file, hash)| grown[1].get(file) != Some(hash)));
 }
 
-/// The scenarios of both, so that buds, bending wood, parametric trees, a vine and an L-system are compared.
-#[test]
-fn the_release_profile_writes_the_same_bytes() {
+/// The program that is tested, and that of the same sources in the release profile.
+fn both_programs() -> Option<[PathBuf; 2]> {
     let Some(release) = std::env::var_os("PHYTOMER_RELEASE") else {
         assert!(!absent::in_ci(), "PHYTOMER_RELEASE names no program of the release profile");
         absent::skip("PHYTOMER_RELEASE names no program of the release profile");
-        return;
+        return None;
     };
     // A relative path is one from the folder of the manifest; the program runs in another.
-    let release = Path::new(env!("CARGO_MANIFEST_DIR")).join(release);
-    let programs = [("tested", Path::new(PROGRAM)), ("release", &release)];
+    Some([PathBuf::from(PROGRAM), Path::new(env!("CARGO_MANIFEST_DIR")).join(release)])
+}
+
+/// The scenarios of both, so that buds, bending wood, parametric trees, a vine and an L-system are compared.
+#[test]
+fn the_release_profile_writes_the_same_bytes() {
+    let Some(programs) = both_programs() else { return };
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("cube.toml"), CUBE).unwrap();
     let own = ["small.toml", "bending.toml", "clump.toml", "large.toml"].map(|name| (data(name), "2"));
     let others = [("cube.toml", "10"), ("gmt1", "5"), ("greene/vine", "5"), ("coffee", "4")];
     let others = others.map(|(name, plants)| (name.to_owned(), plants));
     for (scenario, plants) in own.into_iter().chain(others) {
-        let [tested, release] = programs.map(|(name, at)| {
-            let words = ["grow", &scenario, "--plants", plants, "--name", name];
-            said(program_at(at, folder.path(), &words).output().unwrap()).ending(0);
-            let run = folder.path().join("runs").join(name);
+        let [tested, release] = programs.each_ref().map(|program| {
+            let words = ["grow", &scenario, "--plants", plants, "--name", "run"];
+            said(program_at(program, folder.path(), &words).output().unwrap()).ending(0);
+            let run = folder.path().join("runs/run");
             let written = hashes(&run);
             std::fs::remove_dir_all(run).unwrap();
             written
@@ -199,6 +204,54 @@ fn the_release_profile_writes_the_same_bytes() {
         assert!(!tested.is_empty(), "{scenario}");
         assert_eq!(tested, release, "{scenario}");
     }
+}
+
+/// The tests are built with other features of third-party crates than the program in the release profile
+/// (`.ci/features`): no picture may tell, which are compressed.
+#[test]
+fn pictures_and_charts_are_the_same_in_any_build() {
+    let Some(programs) = both_programs() else { return };
+    let small = data("small.toml");
+    let court = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/shade/court.toml");
+    let lines = [
+        "picture coffee --age 12 --size 90x120 --out coffee.png".to_owned(),
+        "animate coffee --ages 6..12/3 --seconds 1 --fps 2 --size 60x80 --out coffee.apng --quiet".to_owned(),
+        "mesh coffee --age 12 --lods 3 --cards --out coffee.glb".to_owned(),
+        format!("shade {} --out hours --quiet", court.display()),
+        format!("grow {small} --plants 2 --name run --quiet"),
+        "report runs/run --plants 1 --figures figures --out report.html".to_owned(),
+    ];
+    let folders = programs.map(|program| {
+        let folder = tempfile::tempdir().unwrap();
+        for line in &lines {
+            let words: Vec<&str> = line.split(' ').collect();
+            said(program_at(&program, folder.path(), &words).output().unwrap()).ending(0);
+        }
+        folder
+    });
+    let [tested, release] = folders.each_ref().map(|folder| files(folder.path()));
+    let ends = |end: &str| tested.keys().filter(|name| name.ends_with(end)).count();
+    assert!(ends(".apng") == 1 && ends(".glb") == 1 && ends(".svg") > 1 && ends(".png") > 2, "{:?}", tested.keys());
+    assert_eq!(tested.keys().collect::<Vec<_>>(), release.keys().collect::<Vec<_>>());
+    for (name, hash) in &tested {
+        assert_eq!(Some(hash), release.get(name), "{name}");
+    }
+}
+
+/// The hashes of all files below a folder but those of a run that tell of time and place.
+fn files(folder: &Path) -> BTreeMap<String, String> {
+    let mut found = BTreeMap::new();
+    let mut folders = vec![folder.to_path_buf()];
+    while let Some(next) = folders.pop() {
+        for path in std::fs::read_dir(&next).unwrap().map(|entry| entry.unwrap().path()) {
+            if path.is_dir() && !path.ends_with("runs") {
+                folders.push(path);
+            } else if path.is_file() {
+                found.insert(path.strip_prefix(folder).unwrap().display().to_string(), sha256(&path));
+            }
+        }
+    }
+    found
 }
 
 #[test]

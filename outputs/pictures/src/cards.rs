@@ -16,7 +16,7 @@ use super::sides::{Apart, DRAWN, each_ball};
 use glam::Vec3;
 use phytomer_meshes::{Card, Cards, Mesh, Scene, linear};
 use phytomer_sim::math::pow;
-use png::{BitDepth, ColorType, Encoder};
+use png::ColorType;
 use rayon::prelude::*;
 use std::collections::VecDeque;
 use std::f32::consts::FRAC_PI_4;
@@ -384,15 +384,8 @@ fn of_linear(light: f32) -> u8 {
 }
 
 /// A PNG file in memory.
-fn png_of([width, height]: [u32; 2], colour: ColorType, bytes: &[u8]) -> Vec<u8> {
-    let mut out = Vec::new();
-    let mut encoder = Encoder::new(&mut out, width, height);
-    encoder.set_color(colour);
-    encoder.set_depth(BitDepth::Eight);
-    let written = encoder.write_header().and_then(|mut writer| {
-        writer.write_image_data(bytes)?;
-        writer.finish()
-    });
-    debug_assert!(written.is_ok(), "memory does not fail");
-    out
+fn png_of(size: [u32; 2], colour: ColorType, bytes: &[u8]) -> Vec<u8> {
+    let written = phytomer_png::file(size, colour, bytes);
+    debug_assert!(written.is_ok(), "as many bytes as the size asks for");
+    written.unwrap_or_default()
 }

@@ -44,11 +44,11 @@ mod tone;
 mod value_colours;
 
 pub use self::png::write_png;
-pub use ::png::Compression;
 pub use canvas::Canvas;
 pub use colouring::{Colouring, Colours, Scale, colours};
 pub use focus::{Focus, Wanted};
 pub use framing::Framing;
+pub use phytomer_png::Compression;
 pub use sides::{Apart, Outline, Sides};
 pub use survey::Survey;
 

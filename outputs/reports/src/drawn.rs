@@ -13,6 +13,7 @@ use kuva::plot::{ForestPlot, Histogram, LegendPosition, LinePlot, ScatterPlot};
 use kuva::render::layout::{Layout, TickFormat};
 use kuva::render::plots::Plot;
 use kuva::render::render::{Scene, render_multiple};
+use phytomer_png::{Compression, write_deflated};
 use std::sync::Arc;
 
 /// Blue, vermilion, bluish green, orange, sky blue, reddish purple, black: Okabe & Ito 2008, without yellow, which is
@@ -48,7 +49,10 @@ pub fn svg(plotted: &Plotted, id: &str, title: &str, description: &str) -> Optio
 
 /// A figure as PNG, two pixels for each unit of the SVG; `None` where nothing can be drawn.
 pub fn png(plotted: &Plotted) -> Option<Vec<u8>> {
-    PngBackend::new().with_scale(2.0).render_scene(&scene(&plotted.finite()?)).ok()
+    let drawn = PngBackend::new().with_scale(2.0).render_scene(&scene(&plotted.finite()?)).ok()?;
+    let mut png = Vec::with_capacity(drawn.len());
+    write_deflated(&drawn, Compression::Balanced, &mut png).ok()?;
+    Some(png)
 }
 
 /// kuva numbers its ids through a whole process; here they count from 0 in each figure.

@@ -160,14 +160,7 @@ fn picture(drawing: &Drawing<'_>, grid: &Grid) -> Result<Vec<u8>, png::EncodingE
             }));
         }
     }
-    let mut bytes = Vec::new();
-    let mut encoder = png::Encoder::new(&mut bytes, columns as u32, rows as u32);
-    encoder.set_color(png::ColorType::Rgba);
-    encoder.set_depth(png::BitDepth::Eight);
-    let mut writer = encoder.write_header()?;
-    writer.write_image_data(&pixels)?;
-    writer.finish()?;
-    Ok(bytes)
+    phytomer_png::file([columns as u32, rows as u32], png::ColorType::Rgba, &pixels)
 }
 
 /// The colour of a share of the most hours.
