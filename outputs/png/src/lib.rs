@@ -1,7 +1,7 @@
 //! PNG files whose bytes are those of the picture alone, whatever other crates a program is built with.
 //!
-//! The `png` crate writes the file and chooses the filter of each row; its data are deflated by flate2. flate2 takes another
-//! compressor where any crate of a build asks for one, as the reader of Parquet files of the feature `sql` does, and
+//! The `png` crate writes the file and chooses the filter of each row; its data are deflated by flate2. flate2 takes
+//! another compressor where any crate of a build asks for one, as the reader of Parquet of the feature `sql` does, and
 //! another compressor writes other bytes. So the data are deflated here, by miniz, which has no such choice. Absent:
 //! animations (`phytomer-films` puts pictures of this kind together).
 

@@ -82,7 +82,7 @@ fn every_chunk_but_the_data_stays() {
     }
 }
 
-/// The rows are filtered one way at every level, so the same pixels have the same bytes whoever has deflated them before.
+/// Rows are filtered one way at every level, so the same pixels have the same bytes whoever has deflated them before.
 #[test]
 fn the_first_compressor_leaves_no_trace() {
     let file_of = |compression: Option<png::Compression>| {
