@@ -2,7 +2,8 @@
 //! stands.
 //!
 //! A row is scene, plant, file, x, y, z, scale, the azimuth of the lean, the lean and the turn about its own axis:
-//! metres and radians. Older files have no scale. `#[Archimed] word` tells the functional group of the rows below,
+//! metres and radians. Older files have no scale, name their columns in a comment, or have more than one tab between
+//! cells. `#[Archimed] word` tells the functional group of the rows below,
 //! which is read as the species of plants whose own file tells none. Written are an OPF file a plant, beside the
 //! scene. Absent: chains of scenes, and what is no plant, which are passed over with a warning.
 
@@ -24,6 +25,9 @@ mod joined;
 /// The group of plants without a species.
 const GROUP: &str = "plant";
 
+/// The most cells of a row.
+const CELLS: usize = 10;
+
 /// The format.
 pub struct Ops;
 
@@ -42,7 +46,8 @@ impl Format for Ops {
 
     fn read(&self, incoming: &Incoming<'_>, report: &mut Report) -> Description {
         let text = decoded(incoming.bytes, report);
-        let mut scene = Scene { incoming, joined: Joined::default(), files: BTreeMap::new(), group: String::new() };
+        let mut scene =
+            Scene { incoming, joined: Joined::default(), files: BTreeMap::new(), group: String::new(), scaled: true };
         for (place, line) in text.lines().enumerate() {
             scene.line(line, place + 1, report);
         }
@@ -75,6 +80,8 @@ struct Scene<'a> {
     /// The plants of each file, as they are in the joined description.
     files: BTreeMap<String, Vec<Individual>>,
     group: String,
+    /// Whether the columns that a comment has named have a scale among them.
+    scaled: bool,
 }
 
 impl Scene<'_> {
@@ -84,22 +91,23 @@ impl Scene<'_> {
             group.trim().clone_into(&mut self.group);
             return;
         }
+        if let Some(names) = line.strip_prefix('#').map(str::to_ascii_lowercase)
+            && names.trim_start().starts_with("sceneid")
+        {
+            self.scaled = names.split_ascii_whitespace().any(|name| name == "scale");
+        }
         let is_terrain = line.starts_with("T ") || line.starts_with("T\t");
         if line.is_empty() || line.starts_with('#') || is_terrain || report.is_refused() {
             return;
         }
-        let cells: Vec<&str> = if line.contains('\t') {
-            line.split('\t').map(str::trim).collect()
-        } else {
-            line.split_ascii_whitespace().collect()
-        };
+        let cells = cells(line);
         if let [_, _, _] = cells[..]
             && cells.iter().all(|cell| number(cell).is_some())
         {
             report.warn((number_of_line, 0), "chain", "a line of three numbers, as of a chain of scenes, is left out");
             return;
         }
-        let Some((plant, file, standing)) = row(&cells, number_of_line, report) else { return };
+        let Some((plant, file, standing)) = row(&cells, self.scaled, number_of_line, report) else { return };
         if !file.to_ascii_lowercase().ends_with(".opf") {
             report.warn((number_of_line, 0), "", format!("`{}` is no OPF file and is left out", said(file)));
             return;
@@ -153,9 +161,21 @@ impl Scene<'_> {
     }
 }
 
-/// Plant, file and standing of a row; told and none where it is none.
-fn row<'a>(cells: &[&'a str], line: usize, report: &mut Report) -> Option<(&'a str, &'a str, Standing)> {
+/// The cells of a row. Names of files may have blanks, so tabs part the cells where there are any.
+fn cells(line: &str) -> Vec<&str> {
+    if !line.contains('\t') {
+        return line.split_ascii_whitespace().collect();
+    }
+    let all: Vec<&str> = line.split('\t').map(str::trim).collect();
+    // An empty cell of a whole row is a number that is missing; those of a longer row are further tabs.
+    if all.len() > CELLS { all.into_iter().filter(|cell| !cell.is_empty()).collect() } else { all }
+}
+
+/// Plant, file and standing of a row; told and none where it is none. A row whose columns have no scale may end with
+/// one that is to be ignored.
+fn row<'a>(cells: &[&'a str], scaled: bool, line: usize, report: &mut Report) -> Option<(&'a str, &'a str, Standing)> {
     let (plant, file, rest) = match cells {
+        [_, plant, file, rest @ ..] if !scaled && matches!(rest.len(), 6 | 7) => (*plant, *file, &rest[..6]),
         [_, plant, file, rest @ ..] if matches!(rest.len(), 6 | 7) => (*plant, *file, rest),
         _ => {
             let expected = "scene, plant, file, x, y, z, scale and three angles; the scale may be missing";

@@ -2,7 +2,8 @@
 //!
 //! The entity of a code springs from the entity before it in the code or above it in its column, the finest that the
 //! file names there; the complex that it belongs to is the nearest whole of a coarser scale around that. So a leap of
-//! scales needs no rule of its own. A root that is not declared stands for the file and is left out.
+//! scales needs no rule of its own. A root that is not declared stands for the file and is left out. A line that begins
+//! with `#` is a comment as a whole.
 
 use super::code::{self, From};
 use super::header::{Cells, Columns, Header, Section, cell, column};
@@ -93,6 +94,9 @@ impl Reader<'_> {
         let (mut section, mut named) = (Section::None, false);
         for (place, line) in text.split('\n').enumerate() {
             let line = (place + 1, line.strip_suffix('\r').unwrap_or(line));
+            if line.1.starts_with('#') {
+                continue;
+            }
             let first = cell(Cells::of(line.1).next().unwrap_or_default());
             if let Some((begun, rest)) = Section::begun_by(first).filter(|_| section != Section::Mtg) {
                 section = begun;
@@ -245,7 +249,7 @@ impl Reader<'_> {
                 Ok(None) => break,
                 Ok(Some((entity, tail))) => {
                     rest = tail;
-                    here = self.labelled((number, line), entity, here, (at == 0, &mut each), rest.is_empty());
+                    here = self.labelled((number, line), entity, here, (at == 0, &mut each));
                     if here == Here::Lost {
                         break;
                     }

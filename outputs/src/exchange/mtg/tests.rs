@@ -116,6 +116,24 @@ fn a_root_that_is_not_declared_is_the_file_and_scales_may_leap() {
     let plant = whole("/Scene0\n^/P1\n^/I1\n\t+A1/I1\n");
     assert_eq!(plant.individuals.len(), 1);
     assert_eq!(topology(&plant), ["P1 in ", "I1 in P1", "A1+I1 in P1", "I1 in A1"]);
+    // MultiScaleTreeGraph.jl has files whose root stands in one code with the plant.
+    let in_one_line = whole("/Scene0/P1/A1\n^/I1\n\t+I2\n");
+    assert_eq!(topology(&in_one_line), ["P1 in ", "A1 in P1", "I1 in A1", "I2+I1 in A1"]);
+}
+
+#[test]
+fn a_line_that_begins_as_a_comment_is_one() {
+    let plant = whole("/P1/A1\n#ENTITY-CODE\t\t\tLength\n#/P2/A1\t\t\t10.\t5.9\n^/I1\n");
+    assert_eq!(topology(&plant), ["P1 in ", "A1 in P1", "I1 in A1"]);
+}
+
+#[test]
+fn a_plant_of_a_finer_scale_is_told() {
+    let (plants, report) = read(&format!("{HEAD}/P1/A1\n/I1<I2\n/P2\n"));
+    assert_eq!(plants.individuals.len(), 3);
+    let told: Vec<String> = report.warnings().iter().map(ToString::to_string).collect();
+    assert!(told.iter().any(|line| line.contains("`I1` is read as a plant")), "{told:?}");
+    assert_eq!(told.iter().filter(|line| line.contains("is read as a plant")).count(), 1, "{told:?}");
 }
 
 #[test]

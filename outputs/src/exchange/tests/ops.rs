@@ -55,6 +55,23 @@ fn rows_have_a_scale_or_none() {
     );
 }
 
+/// As in a scene of the tests of PlantGeom.jl: names of columns in a comment, no scale, a last column without meaning,
+/// and two tabs between some cells.
+#[test]
+fn columns_that_a_comment_names_may_have_no_scale() {
+    let (plants, warnings) = scene(
+        "T 0 0 0 2 1 flat\n\n#[Archimed] coffee\n\
+         #sceneId plantId plantFileName x y z inclinationAzimut inclinationAngle stemTwist ignored\n\
+         1\t1\ta.opf\t1\t\t0.5\t\t0\t0.25\t0.125\t2\t9\n\
+         #sceneId plantId plantFileName x y z scale inclinationAzimut inclinationAngle stemTwist\n\
+         1\t2\ta.opf\t1\t\t0.5\t\t0\t3\t0.25\t0.125\t2\n",
+    );
+    let standing: Vec<Standing> = plants.individuals.iter().filter_map(|plant| plant.standing).collect();
+    let of = |scale| Standing { place: [1.0, 0.5, 0.0], scale, azimuth: 0.25, inclination: 0.125, twist: 2.0 };
+    assert_eq!(standing, [of(1.0), of(3.0)]);
+    assert_eq!(warnings, ["plant:5: the row has no scale: read as 1"]);
+}
+
 #[test]
 fn a_scene_has_a_file_a_plant_and_stays_as_it_is() {
     let (plants, _) = scene(SCENE);

@@ -15,7 +15,6 @@ impl Reader<'_> {
         Labelled { sign, label }: Labelled<'_>,
         here: Here,
         (first_column, each): (bool, &mut Vec<u32>),
-        last: bool,
     ) -> Here {
         let place = (number, column(line, label));
         let Some((symbol, index)) = symbol_and_index(label) else {
@@ -24,7 +23,7 @@ impl Reader<'_> {
             return Here::Lost;
         };
         let Some(class) = self.header.class(symbol) else {
-            if here == Here::Nowhere && !self.begun && first_column && last && !symbol.is_empty() {
+            if here == Here::Nowhere && !self.begun && first_column && !symbol.is_empty() {
                 let told = format!(
                     "the root `{}` is of no declared class: it stands for the file and is left out",
                     said(label)
@@ -131,6 +130,7 @@ impl Reader<'_> {
         self.entities += 1;
         let mut entity = Entity { index, ..Entity::of(self.classes[class]) };
         let Some((plant, from, complex)) = around else {
+            self.tell_finer((number, label), scale);
             self.description.individuals.push(Individual { entities: vec![entity], ..Individual::default() });
             return Here::At(self.description.individuals.len() as u32 - 1, 0);
         };
@@ -141,5 +141,21 @@ impl Reader<'_> {
         let entities = &mut self.description.individuals[plant as usize].entities;
         entities.push(entity);
         Here::At(plant, entities.len() as u32 - 1)
+    }
+
+    /// Tells of a plant that begins at a finer scale than the first: in files without `^` such a label goes on from the
+    /// line above.
+    fn tell_finer(&mut self, (number, label): (usize, &str), scale: u32) {
+        let Some(first) = self.description.individuals.first().and_then(|plant| plant.entities.first()) else { return };
+        let first = &self.description.classes[first.class as usize];
+        if scale > first.scale {
+            let told = format!(
+                "`{}` is read as a plant, of a finer scale than the first plant ({}): where it belongs to the entity above, write \
+                 `^` before it",
+                said(label),
+                said(&first.symbol)
+            );
+            self.report.warn((number, 0), "finer plant", told);
+        }
     }
 }
