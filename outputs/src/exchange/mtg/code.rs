@@ -79,16 +79,18 @@ pub fn next(code: &str) -> Result<Option<(Labelled<'_>, &str)>, Wrong<'_>> {
     Ok(Some((Labelled { sign, label: &rest[..end] }, &rest[end..])))
 }
 
-/// Symbol and index of a label; the index may be missing, and may have decimals. `None` where it is no number.
-pub fn symbol_and_index(label: &str) -> Option<(&str, Option<f64>)> {
+/// Symbol and index of a label, and the letters behind the index, as `A2a` has one in measured files. The index may be
+/// missing, and may have decimals. `None` where it is no number.
+pub fn symbol_and_index(label: &str) -> Option<(&str, Option<f64>, &str)> {
     let digits = label.find(|c: char| c.is_ascii_digit()).unwrap_or(label.len());
     let (symbol, index) = label.split_at(digits);
     if index.is_empty() {
-        return Some((symbol, None));
+        return Some((symbol, None, ""));
     }
+    let (index, letters) = index.split_at(index.trim_end_matches(|c: char| c.is_ascii_alphabetic()).len());
     let plain = index.bytes().all(|byte| byte.is_ascii_digit() || byte == b'.') && index.len() <= 18;
     let number = if plain { index.parse::<f64>().ok() } else { None };
-    number.map(|number| (symbol, Some(number)))
+    number.map(|number| (symbol, Some(number), letters))
 }
 
 #[cfg(test)]
@@ -119,11 +121,12 @@ mod tests {
     }
 
     #[test]
-    fn an_index_may_be_missing_or_have_decimals() {
-        assert_eq!(symbol_and_index("Metamer12"), Some(("Metamer", Some(12.0))));
-        assert_eq!(symbol_and_index("A"), Some(("A", None)));
-        assert_eq!(symbol_and_index("U1.5"), Some(("U", Some(1.5))));
-        assert_eq!(symbol_and_index("U1x"), None);
+    fn an_index_may_be_missing_or_have_decimals_or_letters() {
+        assert_eq!(symbol_and_index("Metamer12"), Some(("Metamer", Some(12.0), "")));
+        assert_eq!(symbol_and_index("A"), Some(("A", None, "")));
+        assert_eq!(symbol_and_index("U1.5"), Some(("U", Some(1.5), "")));
+        assert_eq!(symbol_and_index("U1x"), Some(("U", Some(1.0), "x")));
+        assert_eq!(symbol_and_index("U1x2"), None);
         assert_eq!(symbol_and_index("U1..5"), None);
     }
 }

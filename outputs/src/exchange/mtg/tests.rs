@@ -127,6 +127,20 @@ fn a_line_that_begins_as_a_comment_is_one() {
     assert_eq!(topology(&plant), ["P1 in ", "A1 in P1", "I1 in A1"]);
 }
 
+/// A file of MultiScaleTreeGraph.jl has two branches `A2a` and `A2b` on one segment.
+#[test]
+fn letters_behind_an_index_are_left_out_and_told() {
+    let (plant, report) = read(&format!("{HEAD}/P1/A1\n\t+A2a\n\t+A2b\n"));
+    assert!(report.faults().is_empty(), "{:?}", report.faults());
+    let indices: Vec<_> = plant.individuals[0].entities.iter().map(|entity| entity.index).collect();
+    assert_eq!(indices, [Some(1.0), Some(1.0), Some(2.0), Some(2.0)]);
+    let told: Vec<String> = report.warnings().iter().map(ToString::to_string).collect();
+    assert!(
+        told.iter().any(|line| line.contains("24:3: the letters behind the index of `A2a` are left out")),
+        "{told:?}"
+    );
+}
+
 #[test]
 fn a_plant_of_a_finer_scale_is_told() {
     let (plants, report) = read(&format!("{HEAD}/P1/A1\n/I1<I2\n/P2\n"));

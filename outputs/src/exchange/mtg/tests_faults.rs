@@ -19,7 +19,7 @@ const BAD: [(&str, &[&str]); 15] = [
     ("+P1\n", &["23:2: `P1` begins a plant; expected `/` before what begins a plant, such as `/P1`"]),
     ("/P1/A1\n(nobody)+A2\n", &["24:1: no entity has this alias; expected an alias that an entity above has"]),
     ("/P1/A1\n(nobody+A2\n", &["24:1: an alias is not closed; expected a closing parenthesis after the alias"]),
-    ("/P1/A1x\n", &["23:5: the label `A1x` has no number as its index; expected a symbol and an index"]),
+    ("/P1/A1x2\n", &["23:5: the label `A1x2` has no number as its index; expected a symbol and an index"]),
     ("/P1/A1<<I3\n", &["23:9: the range to `I3` has no beginning of the same class with an index"]),
     ("/P1/A3<<A1\n", &["23:9: the range to `A1` goes down from 3; expected a range that rises"]),
     (

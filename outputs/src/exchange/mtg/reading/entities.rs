@@ -17,11 +17,15 @@ impl Reader<'_> {
         (first_column, each): (bool, &mut Vec<u32>),
     ) -> Here {
         let place = (number, column(line, label));
-        let Some((symbol, index)) = symbol_and_index(label) else {
+        let Some((symbol, index, letters)) = symbol_and_index(label) else {
             let problem = format!("the label `{}` has no number as its index", said(label));
             self.report.fault(place, problem, "a symbol and an index, such as `U12` or `U1.5`");
             return Here::Lost;
         };
+        if !letters.is_empty() {
+            let told = format!("the letters behind the index of `{}` are left out", said(label));
+            self.report.warn((number, column(line, label)), "letters", told);
+        }
         let Some(class) = self.header.class(symbol) else {
             if here == Here::Nowhere && !self.begun && first_column && !symbol.is_empty() {
                 let told = format!(
