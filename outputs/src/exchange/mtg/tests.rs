@@ -127,6 +127,17 @@ fn a_line_that_begins_as_a_comment_is_one() {
     assert_eq!(topology(&plant), ["P1 in ", "A1 in P1", "I1 in A1"]);
 }
 
+/// A file of openalea.mtg has a forest of plants `N1`, `^<N2`, `^<N3`.
+#[test]
+fn plants_that_hang_on_one_another_are_plants() {
+    let (plants, report) = read(&format!("{HEAD}/P1\n\t/A1\n^<P2\n\t/A1/I1\n^+P3/A1\n"));
+    assert!(report.faults().is_empty(), "{:?}", report.faults());
+    let counts: Vec<usize> = plants.individuals.iter().map(|plant| plant.entities.len()).collect();
+    assert_eq!(counts, [2, 3, 2]);
+    let told: Vec<String> = report.warnings().iter().map(ToString::to_string).collect();
+    assert!(told.iter().any(|line| line.contains("`P2` hangs on another plant")), "{told:?}");
+}
+
 /// A file of MultiScaleTreeGraph.jl has two branches `A2a` and `A2b` on one segment.
 #[test]
 fn letters_behind_an_index_are_left_out_and_told() {

@@ -4,7 +4,7 @@ use super::super::code::{Labelled, Sign, symbol_and_index};
 use super::super::header::column;
 use super::{Here, MOST_RANGED, Reader};
 use crate::exchange::contract::MOST_ENTITIES;
-use crate::exchange::description::{Entity, Individual, Link};
+use crate::exchange::description::{Entity, Individual, Link, Role};
 use crate::exchange::text::said;
 
 impl Reader<'_> {
@@ -122,6 +122,11 @@ impl Reader<'_> {
         }
         let scale = self.header.classes[class].scale;
         let around = match here {
+            Here::At(plant, _) if link.is_some() && self.is_plant(class) && self.begins_as_plant(plant) => {
+                let told = format!("`{}` hangs on another plant; it is read as a plant by itself", said(label));
+                self.report.warn((number, 0), "plants that hang together", told);
+                None
+            }
             Here::At(plant, entity) => {
                 let individual = &self.description.individuals[plant as usize];
                 let classes = &self.description.classes;
@@ -145,6 +150,16 @@ impl Reader<'_> {
         let entities = &mut self.description.individuals[plant as usize].entities;
         entities.push(entity);
         Here::At(plant, entities.len() as u32 - 1)
+    }
+
+    fn is_plant(&self, class: usize) -> bool {
+        self.description.classes[self.classes[class] as usize].role == Role::Plant
+    }
+
+    /// Whether what the file says of an individual begins with a plant, and not with a scene of several.
+    fn begins_as_plant(&self, plant: u32) -> bool {
+        let first = self.description.individuals[plant as usize].entities.first();
+        first.is_some_and(|first| self.description.classes[first.class as usize].role == Role::Plant)
     }
 
     /// Tells of a plant that begins at a finer scale than the first: in files without `^` such a label goes on from the
