@@ -51,7 +51,11 @@ impl BudModel {
             let alike = buds.iter().take_while(|bud| order(bud) == order(first)).count();
             let (now, later) = buds.split_at(alike);
             words.many_alike = alike >= MANY_ALIKE;
-            self.grow_alike((plant, site), now, age, words)?;
+            if site.is_none() && self.grow_plainly(plant, now) {
+                self.grow_plain(plant, now, age, words).map_err(|Full| Overgrown::of(plant))?;
+            } else {
+                self.grow_alike((plant, site), now, age, words)?;
+            }
             buds = later;
         }
         Ok(())
@@ -59,9 +63,16 @@ impl BudModel {
 }
 
 impl Axis<'_> {
-    /// Goes on to another axis of the same order.
+    /// Goes on to another axis of the same order, with the words that were read ahead for it.
     #[inline]
     fn go_on_to(&mut self, bud: ApicalBud) {
+        self.stand_on(bud);
+        self.words.take_ahead(self.laws);
+    }
+
+    /// Goes on to another axis of the same order.
+    #[inline]
+    pub(super) fn stand_on(&mut self, bud: ApicalBud) {
         let place = bud.axis.index();
         self.words.of_next(self.laws);
         self.bud = bud;

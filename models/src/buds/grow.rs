@@ -67,8 +67,17 @@ pub(super) struct Axis<'a> {
 pub(super) struct Full;
 
 impl<'a> Axis<'a> {
+    /// An axis that grows from its bud, with the words that were read ahead for the bud which grows next.
     #[inline(always)]
     pub fn new(model: &'a BudModel, plant: &'a mut Plant, words: &'a mut Words, bud: ApicalBud) -> Self {
+        let axis = Self::of(model, plant, words, bud);
+        axis.words.take_ahead(axis.laws);
+        axis
+    }
+
+    /// The axis of a bud.
+    #[inline(always)]
+    pub fn of(model: &'a BudModel, plant: &'a mut Plant, words: &'a mut Words, bud: ApicalBud) -> Self {
         let laws = model.laws(plant.axes.order[bud.axis.index()]);
         words.of(laws);
         let height = if laws.asks_height { height_in_steps(f64::from(plant.height)) } else { 0 };

@@ -21,6 +21,7 @@ mod node;
 mod organ;
 pub mod params;
 mod plan;
+mod plain;
 mod planned;
 mod record;
 mod site;
