@@ -62,7 +62,15 @@ impl BudModel {
     }
 }
 
-impl Axis<'_> {
+impl<'a> Axis<'a> {
+    /// An axis that grows from its bud, with the words that were read ahead for the bud which grows next.
+    #[inline(always)]
+    pub(super) fn new(model: &'a BudModel, plant: &'a mut Plant, words: &'a mut Words, bud: ApicalBud) -> Self {
+        let axis = Self::of(model, plant, words, bud);
+        axis.words.take_ahead(axis.laws);
+        axis
+    }
+
     /// Goes on to another axis of the same order, with the words that were read ahead for it.
     #[inline]
     fn go_on_to(&mut self, bud: ApicalBud) {

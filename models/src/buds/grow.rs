@@ -22,8 +22,7 @@ use phytomer_sim::plant::{ApexFate, Event, EventKind, NodeId, Plant};
 use phytomer_sim::random::Purpose;
 use phytomer_sim::site::Site;
 
-/// The fewest nodes that a living axis plans alone: one that grows on by a tick or two makes each as it comes, unless
-/// others of its order do so beside it.
+/// The fewest nodes that a living axis plans alone; it makes fewer as they come.
 const FEWEST: u32 = 8;
 
 /// One axis while it grows.
@@ -67,14 +66,6 @@ pub(super) struct Axis<'a> {
 pub(super) struct Full;
 
 impl<'a> Axis<'a> {
-    /// An axis that grows from its bud, with the words that were read ahead for the bud which grows next.
-    #[inline(always)]
-    pub fn new(model: &'a BudModel, plant: &'a mut Plant, words: &'a mut Words, bud: ApicalBud) -> Self {
-        let axis = Self::of(model, plant, words, bud);
-        axis.words.take_ahead(axis.laws);
-        axis
-    }
-
     /// The axis of a bud.
     #[inline(always)]
     pub fn of(model: &'a BudModel, plant: &'a mut Plant, words: &'a mut Words, bud: ApicalBud) -> Self {

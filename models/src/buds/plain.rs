@@ -1,5 +1,5 @@
-//! Axes in the open, of an order whose steps are plain, that grow one after another: they go through their steps without
-//! an [`Axis`] of each, by the words where they were made, and plan their nodes.
+//! Axes in the open, of an order whose steps are plain and make several nodes, that grow one after another: they go
+//! through their steps without an [`Axis`] of each, by the words where they were made, and plan their nodes.
 //!
 //! The steps are those of [`Axis::grow`], test for test. What is rare goes that way: the end of an apex, and a growth
 //! unit that fills a block. Absent: how the nodes are made (`planned`), and axes that read words at their birth, meet
@@ -51,22 +51,31 @@ enum Halt {
     Dies,
     /// Its apex has made its last growth unit.
     Completes,
-    /// Its growth unit, long or short, of so many nodes fills the block. Then it is at that point, and its apex may have
-    /// made its last growth unit.
+    /// Its growth unit, long or short, of so many nodes fills the block. Behind the unit it is at the point `then`, and
+    /// its apex may have made its last growth unit.
     Fills { short: bool, nodes: u32, then: At, completes: bool },
+}
+
+impl OrderLaws {
+    /// Whether axes of the order go through their steps in [`BudModel::grow_plain`], where they stand in the open and
+    /// in full light. Where no step makes more than one node they do not: that gains nothing, as measured.
+    pub(super) fn are_plain(&self) -> bool {
+        let Self { head, step, node, light_alone, .. } = self;
+        let is_known = !head.guides_growth && head.speed.only().is_some() && step.is_plain && step.width > 0;
+        let responds = !step.spare.places().is_empty() || !node.spare.places().is_empty();
+        is_known && node.most_nodes > 1 && (*light_alone || !responds)
+    }
 }
 
 impl BudModel {
     /// Whether axes of one order that grow from their buds go through their steps in [`Self::grow_plain`], where they
     /// stand in the open.
+    #[inline]
     pub(super) fn grow_plainly(&self, plant: &Plant, buds: &[ApicalBud]) -> bool {
         let Some(first) = buds.first() else { return false };
         let laws = self.laws(plant.axes.order[first.axis.index()]);
-        let OrderLaws { head, step, node, light_alone, asks_light, .. } = laws;
-        let is_known = !head.guides_growth && head.speed.only().is_some() && step.is_plain && step.width > 0;
-        let responds = !step.spare.places().is_empty() || !node.spare.places().is_empty();
-        let is_lit = !asks_light || buds.iter().all(|bud| plant.shade.of(bud.axis) == 0);
-        is_known && node.block > 0 && (*light_alone || !responds) && is_lit && plant.exposure.is_none()
+        let is_lit = || !laws.asks_light || buds.iter().all(|bud| plant.shade.of(bud.axis) == 0);
+        laws.is_plain && laws.node.block > 0 && plant.exposure.is_none() && is_lit()
     }
 
     /// Grows axes of one order, which [grow plainly](Self::grow_plainly), as [`Self::grow_alike`].
@@ -223,7 +232,7 @@ impl Alike<'_> {
             if !fills {
                 note(plan, EventKind::Grew, nodes);
             }
-            let before = *at;
+            let before = fills.then_some(*at);
             // The growth unit has a new bud at its tip.
             at.unit += 1;
             (at.bud_birth, at.bud_dimension) = (at.age, at.dimension);
@@ -231,7 +240,7 @@ impl Alike<'_> {
             if !completes && !step.transitions.is_empty() {
                 at.state = step.state_after(words, at, *leads);
             }
-            if fills {
+            if let Some(before) = before {
                 let then = std::mem::replace(at, before);
                 return Halt::Fills { short, nodes, then, completes };
             }

@@ -16,7 +16,7 @@ use phytomer_sim::plant::{NodeId, Plant};
 const FEWEST: u32 = 4;
 
 /// The fewest nodes that axes which grow by the clock make at once, as measured.
-const MANY_BY_THE_CLOCK: u32 = 24;
+const MANY_BY_THE_CLOCK: u32 = 8;
 
 impl Axis<'_> {
     /// Plans the nodes of a growth unit, and makes the block as soon as it is full.

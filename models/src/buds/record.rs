@@ -105,7 +105,9 @@ impl Words {
     /// The record of the clock step that was read last, and what stands behind it.
     #[inline(always)]
     pub fn step(&self) -> &[u32] {
-        &self.steps.words[self.steps.place..]
+        let Steps { words, place, are_ahead, .. } = &self.steps;
+        let words = if *are_ahead { self.ahead.words() } else { words };
+        &words[*place..]
     }
 
     /// Reads the record of a clock step, from 0, of an axis that may go through `ahead` steps from this one on.
@@ -264,7 +266,14 @@ impl Words {
     pub fn take_ahead(&mut self, laws: &OrderLaws) {
         let width = laws.step.width;
         self.ahead.go_on(&mut self.of_bud);
-        if self.of_bud.steps > 0 {
+        let has_responses = !laws.step.spare.places().is_empty() && self.responds(laws);
+        if self.of_bud.steps > 0 && !has_responses {
+            // They are read where they stand.
+            let begin = self.of_bud.words.start as usize;
+            let (first, number) = (self.of_bud.first, self.of_bud.steps);
+            (self.steps.first, self.steps.number, self.steps.are_ahead) = (first, number, true);
+            (self.steps.begin, self.steps.place) = (begin, begin);
+        } else if self.of_bud.steps > 0 {
             let (first, number) = (self.of_bud.first, self.of_bud.steps as usize);
             let into = self.steps.begin_at(first, number, laws.step.spare.words() + (number - 1) * width);
             into[..number * width].copy_from_slice(self.ahead.of_steps(&self.of_bud));
@@ -299,14 +308,17 @@ struct Steps {
     /// The first step, from 0, and how many they are.
     first: u32,
     number: u32,
-    /// The place of the record that is asked for.
+    /// The place of the record that is asked for, and of the first.
     place: usize,
+    begin: usize,
+    /// Whether they stand among the words that were read ahead.
+    are_ahead: bool,
 }
 
 impl Steps {
     /// Forgets the records of the axis before. A quantity without words reads word 0 and ignores it.
     fn of(&mut self, laws: &OrderLaws) {
-        (self.first, self.number, self.place) = (0, 0, 0);
+        (self.first, self.number, self.place, self.begin, self.are_ahead) = (0, 0, 0, 0, false);
         let least = laws.step.spare.words();
         if self.words.len() < least {
             self.words.resize(least, 0);
@@ -319,14 +331,14 @@ impl Steps {
         let nth = step.wrapping_sub(self.first);
         let is_here = nth < self.number;
         if is_here {
-            self.place = nth as usize * width;
+            self.place = self.begin + nth as usize * width;
         }
         is_here
     }
 
     /// Room for `number` records from the step `first` on, in `words` words.
     fn begin_at(&mut self, first: u32, number: usize, words: usize) -> &mut [u32] {
-        (self.first, self.number, self.place) = (first, number as u32, 0);
+        (self.first, self.number, self.place, self.begin, self.are_ahead) = (first, number as u32, 0, 0, false);
         if self.words.len() < words {
             self.words.resize(words, 0);
         }

@@ -106,7 +106,7 @@ pub(super) struct OfBud {
     pub first: u32,
     pub steps: u32,
     /// Where the words of the steps stand.
-    words: Range<u32>,
+    pub words: Range<u32>,
     /// The number of its next node, from 0.
     pub node: u32,
     /// Where the words of the node stand; none where it needs none.
@@ -204,6 +204,12 @@ impl Ahead {
             }
             _ => AtHand::default(),
         }
+    }
+
+    /// All words. Behind the records stand as many more as one record of a step has with its responses.
+    #[inline]
+    pub fn words(&self) -> &[u32] {
+        self.blocks.as_flattened()
     }
 
     /// The words of the steps of a bud.
