@@ -51,17 +51,36 @@ impl BudModel {
             let alike = buds.iter().take_while(|bud| order(bud) == order(first)).count();
             let (now, later) = buds.split_at(alike);
             words.many_alike = alike >= MANY_ALIKE;
-            self.grow_alike((plant, site), now, age, words)?;
+            if site.is_none() && self.grow_plainly(plant, now) {
+                self.grow_plain(plant, now, age, words).map_err(|Full| Overgrown::of(plant))?;
+            } else {
+                self.grow_alike((plant, site), now, age, words)?;
+            }
             buds = later;
         }
         Ok(())
     }
 }
 
-impl Axis<'_> {
-    /// Goes on to another axis of the same order.
+impl<'a> Axis<'a> {
+    /// An axis that grows from its bud, with the words that were read ahead for the bud which grows next.
+    #[inline(always)]
+    pub(super) fn new(model: &'a BudModel, plant: &'a mut Plant, words: &'a mut Words, bud: ApicalBud) -> Self {
+        let axis = Self::of(model, plant, words, bud);
+        axis.words.take_ahead(axis.laws);
+        axis
+    }
+
+    /// Goes on to another axis of the same order, with the words that were read ahead for it.
     #[inline]
     fn go_on_to(&mut self, bud: ApicalBud) {
+        self.stand_on(bud);
+        self.words.take_ahead(self.laws);
+    }
+
+    /// Goes on to another axis of the same order.
+    #[inline]
+    pub(super) fn stand_on(&mut self, bud: ApicalBud) {
         let place = bud.axis.index();
         self.words.of_next(self.laws);
         self.bud = bud;

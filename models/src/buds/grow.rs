@@ -22,8 +22,7 @@ use phytomer_sim::plant::{ApexFate, Event, EventKind, NodeId, Plant};
 use phytomer_sim::random::Purpose;
 use phytomer_sim::site::Site;
 
-/// The fewest nodes that a living axis plans alone: one that grows on by a tick or two makes each as it comes, unless
-/// others of its order do so beside it.
+/// The fewest nodes that a living axis plans alone; it makes fewer as they come.
 const FEWEST: u32 = 8;
 
 /// One axis while it grows.
@@ -67,8 +66,9 @@ pub(super) struct Axis<'a> {
 pub(super) struct Full;
 
 impl<'a> Axis<'a> {
+    /// The axis of a bud.
     #[inline(always)]
-    pub fn new(model: &'a BudModel, plant: &'a mut Plant, words: &'a mut Words, bud: ApicalBud) -> Self {
+    pub fn of(model: &'a BudModel, plant: &'a mut Plant, words: &'a mut Words, bud: ApicalBud) -> Self {
         let laws = model.laws(plant.axes.order[bud.axis.index()]);
         words.of(laws);
         let height = if laws.asks_height { height_in_steps(f64::from(plant.height)) } else { 0 };

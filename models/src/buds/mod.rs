@@ -20,6 +20,7 @@ mod model;
 mod node;
 mod organ;
 pub mod params;
+mod plain;
 mod plan;
 mod planned;
 mod record;

@@ -7,13 +7,16 @@ use super::bud::ApicalBud;
 use super::columns::Block;
 use super::compile::{BudModel, Piece};
 use super::grow::{Axis, Full};
-use super::plan::Shoot;
+use super::plan::{Plan, Shoot};
 use super::record::Words;
 use crate::law::At;
 use phytomer_sim::plant::{NodeId, Plant};
 
 /// The fewest nodes that are made at once: fewer of one axis are made faster one by one, as measured.
 const FEWEST: u32 = 4;
+
+/// The fewest nodes that axes which grow by the clock make at once, as measured.
+const MANY_BY_THE_CLOCK: u32 = 8;
 
 impl Axis<'_> {
     /// Plans the nodes of a growth unit, and makes the block as soon as it is full.
@@ -105,6 +108,39 @@ impl Axis<'_> {
         Ok(())
     }
 
+    /// Makes the nodes that are planned of this axis and of others of its order behind it, one by one, with the records
+    /// that have been read for all of them.
+    fn make_in_turn(&mut self, plan: &Plan) -> Result<(), Full> {
+        let mut events = plan.events.iter().peekable();
+        let mut pieces = plan.pieces.iter().peekable();
+        for (nth, shoot) in plan.shoots.iter().enumerate() {
+            if nth > 0 {
+                self.stand_on(shoot.bud);
+            }
+            while let Some(piece) = pieces.next_if(|piece| piece.nodes.0 < shoot.nodes.1) {
+                self.decide_again(piece.at);
+                let zones = piece.zones.0 as usize..piece.zones.1 as usize;
+                self.words.zones.clear();
+                self.words.zones.extend_from_slice(&plan.zones[zones]);
+                for node in piece.places() {
+                    while let Some((_, event)) = events.next_if(|(nodes, _)| *nodes as usize <= node) {
+                        self.plant.events.as_mut().into_iter().for_each(|events| events.push(*event));
+                    }
+                    self.words.take_planned(node, self.laws.node.width);
+                    let rank = piece.rank(node);
+                    let drawn = self.draw_internode(rank, [piece.short, rank > piece.preformed]);
+                    self.node(drawn, piece.unit_nodes, Lie::Free)?;
+                }
+            }
+            let made = self.bud;
+            if let Some(bud) = shoot.living.and_then(|place| self.words.living.get_mut(place)) {
+                *bud = bud.behind(&made);
+            }
+        }
+        self.plant.events.as_mut().into_iter().for_each(|all| all.extend(events.by_ref().map(|(_, event)| *event)));
+        Ok(())
+    }
+
     /// Takes the bud back to the step at which it decided on a growth unit, as far as its nodes ask.
     fn decide_again(&mut self, at: At) {
         let (cycle, units, birth, state) = (at.cycle, at.unit, at.bud_birth, at.state);
@@ -126,13 +162,21 @@ impl Axis<'_> {
     }
 }
 
-/// Makes the nodes that axes which have grown to their age have planned, if any.
+/// Makes the nodes that axes which have grown to their age have planned, if any: at once, or one by one where they are
+/// few of buds that grow by the clock.
 pub(super) fn make_last(model: &BudModel, plant: &mut Plant, words: &mut Words) -> Result<(), Full> {
-    if words.plan.is_empty() {
+    let Some(shoot) = words.plan.shoots.first() else { return Ok(()) };
+    if words.many_begin || words.plan.nodes >= MANY_BY_THE_CLOCK {
+        make_at_once(model, plant, words)?;
+        words.plan.clear();
         return Ok(());
     }
-    make_at_once(model, plant, words)?;
-    words.plan.clear();
+    let bud = shoot.bud;
+    words.read_nodes(model.laws(plant.axes.order[bud.axis.index()]), &plant.random);
+    let mut plan = std::mem::take(&mut words.plan);
+    Axis::of(model, plant, words, bud).make_in_turn(&plan)?;
+    plan.clear();
+    words.plan = plan;
     Ok(())
 }
 

@@ -7,7 +7,7 @@ use super::bud::ApicalBud;
 use super::columns::Columns;
 use super::compile::{BudModel, NODE_OF_RESPONSES, OrderLaws, Ranks, STEP_OF_RESPONSES, Spare};
 use super::plan::Plan;
-use super::together::{Ahead, NodeWords, OfBud, WORDS_AT_ONCE};
+use super::together::{Ahead, AtHand, NodeWords, OfBud, WORDS_AT_ONCE};
 use phytomer_sim::clock::Tick;
 use phytomer_sim::plant::{LineageKey, Plant};
 use phytomer_sim::random::{PlantRandom, Purpose, Stream};
@@ -67,7 +67,7 @@ impl Words {
         done
     }
 
-    /// Makes these the words of an axis of an order.
+    /// Makes these the words of an axis of an order; none that were read ahead.
     pub fn of(&mut self, laws: &OrderLaws) {
         (self.bud, self.node, self.step_response, self.node_response) = (None, None, None, None);
         // A quantity without words reads word 0 and ignores it.
@@ -83,17 +83,17 @@ impl Words {
         }
         self.trends.clear();
         self.zones.clear();
-        self.take_ahead(laws);
+        self.of_bud.clear();
     }
 
-    /// Makes these the words of another axis of the same order.
+    /// Makes these the words of another axis of the same order; none that were read ahead.
     #[inline]
     pub fn of_next(&mut self, laws: &OrderLaws) {
         (self.bud, self.node, self.step_response, self.node_response) = (None, None, None, None);
         self.steps.of(laws);
         self.trends.clear();
         self.zones.clear();
-        self.take_ahead(laws);
+        self.of_bud.clear();
     }
 
     /// Reads the head record from the axis's bud stream.
@@ -105,7 +105,9 @@ impl Words {
     /// The record of the clock step that was read last, and what stands behind it.
     #[inline(always)]
     pub fn step(&self) -> &[u32] {
-        &self.steps.words[self.steps.place..]
+        let Steps { words, place, are_ahead, .. } = &self.steps;
+        let words = if *are_ahead { self.ahead.words() } else { words };
+        &words[*place..]
     }
 
     /// Reads the record of a clock step, from 0, of an axis that may go through `ahead` steps from this one on.
@@ -147,9 +149,21 @@ impl Words {
     /// Reads the records of the steps from `step` on: of one where words of responses stand behind it, else of many.
     #[inline(never)]
     pub fn read_steps(&mut self, laws: &OrderLaws, random: &PlantRandom, key: LineageKey, step: u32, ahead: u32) {
+        self.read_more_steps(laws, random, key, (step, ahead), self.steps.number > 0);
+    }
+
+    /// As [`Self::read_steps`]; more at once where records of the axis have been read `before`.
+    fn read_more_steps(
+        &mut self,
+        laws: &OrderLaws,
+        random: &PlantRandom,
+        key: LineageKey,
+        (step, ahead): (u32, u32),
+        before: bool,
+    ) {
         let width = laws.step.width;
         let alone = !laws.step.spare.places().is_empty() && self.responds(laws);
-        let most = WORDS_AT_ONCE[usize::from(self.steps.number > 0)] / width;
+        let most = WORDS_AT_ONCE[usize::from(before)] / width;
         let number = if alone { 1 } else { (ahead as usize).min(most).max(1) };
         let into = self.steps.begin_at(step, number, laws.step.spare.words() + (number - 1) * width);
         let stream = self.bud.get_or_insert_with(|| random.stream(key, Purpose::Bud));
@@ -192,6 +206,51 @@ impl Words {
         self.ahead.read(of, buds, age, one_by_one);
     }
 
+    /// The number of the bud that grows next among those whose words were read ahead, if any.
+    pub fn next_ahead(&self) -> usize {
+        self.ahead.next()
+    }
+
+    /// Leaves out the words of buds that have grown without [`Self::take_ahead`]: the bud `next` grows next.
+    pub fn go_on_ahead_from(&mut self, next: usize) {
+        self.ahead.go_on_from(next);
+    }
+
+    /// The records of steps at hand, and the plan: those that were read ahead for the bud `ahead`, else those that were
+    /// read last.
+    #[inline]
+    pub fn at_hand(&mut self, ahead: Option<usize>) -> (AtHand<'_>, &mut Plan) {
+        let at_hand = match ahead {
+            Some(nth) => self.ahead.steps_of(nth),
+            None => AtHand { words: &self.steps.words, first: self.steps.first, number: self.steps.number },
+        };
+        (at_hand, &mut self.plan)
+    }
+
+    /// Reads records of steps for [`Self::at_hand`], from `step` on, of an axis that may go through `ahead` from it on;
+    /// `begins` where these are the first that are not read ahead.
+    #[inline(never)]
+    pub fn read_on(
+        &mut self,
+        laws: &OrderLaws,
+        random: &PlantRandom,
+        key: LineageKey,
+        (step, ahead): (u32, u32),
+        begins: bool,
+    ) {
+        if begins {
+            self.bud = None;
+        }
+        self.read_more_steps(laws, random, key, (step, ahead), !begins || step > 0);
+    }
+
+    /// Takes the record of the node at a place of the plan as that of the node which is made next.
+    #[inline]
+    pub fn take_planned(&mut self, node: usize, width: usize) {
+        let record = self.nodes.records[node] as usize;
+        self.on_node[..width].copy_from_slice(&self.nodes.words()[record..record + width]);
+    }
+
     /// Makes `living` the buds that have grown to their age and live. Memory is exchanged where that is no waste: it is
     /// lent to other plants.
     pub fn give_living(&mut self, living: &mut Vec<ApicalBud>) {
@@ -204,10 +263,17 @@ impl Words {
     }
 
     /// Takes the words that were read ahead for the bud which grows next, if any.
-    fn take_ahead(&mut self, laws: &OrderLaws) {
+    pub fn take_ahead(&mut self, laws: &OrderLaws) {
         let width = laws.step.width;
         self.ahead.go_on(&mut self.of_bud);
-        if self.of_bud.steps > 0 {
+        let has_responses = !laws.step.spare.places().is_empty() && self.responds(laws);
+        if self.of_bud.steps > 0 && !has_responses {
+            // They are read where they stand.
+            let begin = self.of_bud.words.start as usize;
+            let (first, number) = (self.of_bud.first, self.of_bud.steps);
+            (self.steps.first, self.steps.number, self.steps.are_ahead) = (first, number, true);
+            (self.steps.begin, self.steps.place) = (begin, begin);
+        } else if self.of_bud.steps > 0 {
             let (first, number) = (self.of_bud.first, self.of_bud.steps as usize);
             let into = self.steps.begin_at(first, number, laws.step.spare.words() + (number - 1) * width);
             into[..number * width].copy_from_slice(self.ahead.of_steps(&self.of_bud));
@@ -242,14 +308,17 @@ struct Steps {
     /// The first step, from 0, and how many they are.
     first: u32,
     number: u32,
-    /// The place of the record that is asked for.
+    /// The place of the record that is asked for, and of the first.
     place: usize,
+    begin: usize,
+    /// Whether they stand among the words that were read ahead.
+    are_ahead: bool,
 }
 
 impl Steps {
     /// Forgets the records of the axis before. A quantity without words reads word 0 and ignores it.
     fn of(&mut self, laws: &OrderLaws) {
-        (self.first, self.number, self.place) = (0, 0, 0);
+        (self.first, self.number, self.place, self.begin, self.are_ahead) = (0, 0, 0, 0, false);
         let least = laws.step.spare.words();
         if self.words.len() < least {
             self.words.resize(least, 0);
@@ -262,14 +331,14 @@ impl Steps {
         let nth = step.wrapping_sub(self.first);
         let is_here = nth < self.number;
         if is_here {
-            self.place = nth as usize * width;
+            self.place = self.begin + nth as usize * width;
         }
         is_here
     }
 
     /// Room for `number` records from the step `first` on, in `words` words.
     fn begin_at(&mut self, first: u32, number: usize, words: usize) -> &mut [u32] {
-        (self.first, self.number, self.place) = (first, number as u32, 0);
+        (self.first, self.number, self.place, self.begin, self.are_ahead) = (first, number as u32, 0, 0, false);
         if self.words.len() < words {
             self.words.resize(words, 0);
         }

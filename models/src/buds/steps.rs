@@ -67,21 +67,13 @@ impl Axis<'_> {
                     return self.end(ApexFate::Completed, EventKind::Completed, ApexEnd::Completed);
                 }
                 if !laws.transitions.is_empty() {
-                    at.state = self.state_after(&at);
+                    at.state = laws.state_after(self.words.step(), &at, self.leads);
                     self.bud.state = at.state;
                 }
             }
         }
         self.stand_at(&at);
         Ok(true)
-    }
-
-    /// The state in which a bud is after a step at which no relays follow a passage.
-    fn state_after(&self, at: &At) -> u8 {
-        let (words, leads) = (self.words.step(), self.leads);
-        let mut passages = self.laws.step.transitions.iter();
-        let passes = passages.find(|passage| passage.concerns(at.state, leads) && passage.chance.happens_at(words, at));
-        passes.map_or(at.state, |passage| passage.to)
     }
 
     /// Puts the bud and its clock to a point of its laws.

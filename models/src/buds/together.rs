@@ -89,6 +89,16 @@ pub(super) struct Ahead {
     next: usize,
 }
 
+/// Records of steps of a bud that follow one another.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct AtHand<'a> {
+    /// Their words, one record after another, and more behind them than one record has with its responses.
+    pub words: &'a [u32],
+    /// The number of the first, from 0, and how many they are.
+    pub first: u32,
+    pub number: u32,
+}
+
 /// The words of one bud.
 #[derive(Debug, Clone, Default)]
 pub(super) struct OfBud {
@@ -96,11 +106,20 @@ pub(super) struct OfBud {
     pub first: u32,
     pub steps: u32,
     /// Where the words of the steps stand.
-    words: Range<u32>,
+    pub words: Range<u32>,
     /// The number of its next node, from 0.
     pub node: u32,
     /// Where the words of the node stand; none where it needs none.
     pub node_words: Range<u32>,
+}
+
+impl OfBud {
+    /// Forgets the words.
+    #[inline]
+    pub fn clear(&mut self) {
+        self.steps = 0;
+        self.node_words = 0..0;
+    }
 }
 
 impl Ahead {
@@ -116,12 +135,14 @@ impl Ahead {
         self.clear();
         self.sought.clear();
         let order = |bud: &ApicalBud| plant.axes.order[bud.axis.index()];
+        let mut behind = 0;
         for alike in buds.chunk_by(|one, next| order(one) == order(next)) {
-            let one_by_one = one_by_one && alike.len() < MANY_ALIKE;
-            let records = Records::of(model.laws(order(&alike[0])), one_by_one);
-            self.read_alike(&records, plant, alike, age);
+            let laws = model.laws(order(&alike[0]));
+            let one_by_one = one_by_one && alike.len() < MANY_ALIKE && !model.grow_plainly(plant, alike);
+            self.read_alike(&Records::of(laws, one_by_one), plant, alike, age);
+            behind = behind.max(laws.step.spare.words());
         }
-        make(&self.sought, &mut self.blocks, 0, &plant.random);
+        make(&self.sought, &mut self.blocks, behind.div_ceil(WORDS_OF_BLOCK), &plant.random);
     }
 
     /// Seeks the words of buds of one order.
@@ -161,6 +182,34 @@ impl Ahead {
             None => *of = OfBud::default(),
         }
         self.next += 1;
+    }
+
+    /// The number of the bud that grows next.
+    pub fn next(&self) -> usize {
+        self.next
+    }
+
+    /// Lets the bud `next` be the one that grows next.
+    pub fn go_on_from(&mut self, next: usize) {
+        self.next = next;
+    }
+
+    /// The records of the next steps of a bud.
+    #[inline]
+    pub fn steps_of(&self, nth: usize) -> AtHand<'_> {
+        match self.buds.get(nth) {
+            Some(of) if of.steps > 0 => {
+                let words = &self.blocks.as_flattened()[of.words.start as usize..];
+                AtHand { words, first: of.first, number: of.steps }
+            }
+            _ => AtHand::default(),
+        }
+    }
+
+    /// All words. Behind the records stand as many more as one record of a step has with its responses.
+    #[inline]
+    pub fn words(&self) -> &[u32] {
+        self.blocks.as_flattened()
     }
 
     /// The words of the steps of a bud.

@@ -82,6 +82,8 @@ pub(super) struct OrderLaws {
     pub asks_light: bool,
     /// Whether responses of the order change nothing in full light, so that a bud there reads no words of them.
     pub light_alone: bool,
+    /// Whether its axes go through their steps plainly, where they stand in the open and in full light.
+    pub is_plain: bool,
     /// Whether a law itself does, so that sums over the ages of axes cannot have it.
     pub laws_ask_light: bool,
     /// Metres added to a diameter; a law of the plant's age and the internode's own.
@@ -124,6 +126,7 @@ impl Buds {
         }
         for laws in &mut orders {
             laws.reach = Reach::of(&laws.node);
+            laws.is_plain = laws.are_plain();
         }
         if organ_trends.iter().all(|of| *of == OrganTrends::default()) {
             organ_trends.clear();
@@ -189,6 +192,7 @@ impl OrderLaws {
             asks_light: compiler.asks_light,
             laws_ask_light: compiler.asks_light,
             light_alone: false,
+            is_plain: false,
             step,
         }
     }

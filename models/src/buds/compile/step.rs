@@ -8,7 +8,7 @@ use super::compiler::{Compiler, Ranks};
 use super::words::{Chance, Layout, Number, Spare, Tested};
 use super::zone::ZoneRanks;
 use crate::buds::params::{Order, Sibling, Transition};
-use crate::law::{CountTable, ProbabilityTable};
+use crate::law::{At, CountTable, ProbabilityTable};
 
 /// The most growth units of one step.
 const MOST_UNITS: u32 = 64;
@@ -128,6 +128,13 @@ impl StepLaws {
         let one_unit = self.per_step.fixed() == Some(1) && self.neoformed.fixed() == Some(0);
         let flowerless = self.flower.is_never() && !self.transitions.iter().any(|passage| passage.relayed);
         one_unit && flowerless && !self.zone_ranks.are_drawn()
+    }
+
+    /// The state in which a bud is after a step at which no relays follow a passage; `leads` tells whether its axis
+    /// leads its set of relays.
+    pub fn state_after(&self, words: &[u32], at: &At, leads: bool) -> u8 {
+        let passes = |passage: &&Passage| passage.concerns(at.state, leads) && passage.chance.happens_at(words, at);
+        self.transitions.iter().find(passes).map_or(at.state, |passage| passage.to)
     }
 
     /// The tests of a plain step of a bud, which lacks light where `shaded`.

@@ -281,7 +281,8 @@ impl Measure {
             Some(fixed) => fixed,
             None => self.table.draw(self.slot.word(words, nth), at) * self.unit,
         };
-        if self.times.is_none() { own } else { self.responded(own, at) }
+        let responds = self.times.is_some() && (at.shade > 0 || !self.light_alone);
+        if responds { self.responded(own, at) } else { own }
     }
 
     /// A value under responses.

@@ -28,6 +28,13 @@ pub struct Piece {
 }
 
 impl Piece {
+    /// A whole growth unit of preformed nodes, which begins at the place `first` of the block and has drawn no zones.
+    #[inline]
+    pub fn of_unit(at: &At, short: bool, nodes: u32, first: u32) -> Self {
+        let (unit_nodes, preformed, nodes) = (nodes, nodes, (first, first + nodes));
+        Self { at: *at, unit_nodes, first: 1, nodes, preformed, short, zones: (0, 0) }
+    }
+
     /// The point at which laws of its node at the place `node` of the block are evaluated.
     #[inline]
     pub fn at(&self, node: usize) -> At {
