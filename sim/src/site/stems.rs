@@ -10,6 +10,7 @@
 
 mod beside;
 mod cells;
+mod line;
 mod of_plant;
 mod segments;
 mod stem;
@@ -17,6 +18,7 @@ mod stem;
 mod tests;
 
 pub use beside::{Beside, Spared, Touch};
+pub use line::Line;
 
 use crate::clock::Tick;
 use crate::plant::Plant;

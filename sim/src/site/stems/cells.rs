@@ -86,8 +86,12 @@ impl Cells {
 
     /// The cells to be asked about a ball; `None` where they are too many.
     pub fn about(&self, point: Point, reach: f64) -> Option<Range> {
-        let reach = reach + self.widest;
-        let range = range_of(self.edge, [point.map(|x| x - reach), point.map(|x| x + reach)]);
+        self.around([point.map(|x| x - reach), point.map(|x| x + reach)])
+    }
+
+    /// The cells to be asked about a box; `None` where they are too many.
+    pub fn around(&self, [low, high]: [Point; 2]) -> Option<Range> {
+        let range = range_of(self.edge, [low.map(|x| x - self.widest), high.map(|x| x + self.widest)]);
         (count(&range) <= MOST_ASKED).then_some(range)
     }
 
