@@ -1,7 +1,8 @@
 //! The place from which an axis grows on in a tick, and whether a growth unit meets nothing, whatever its way is.
 //!
-//! An axis with no stem within the reach of its growth unit asks once a unit, makes its nodes as in the open, and
-//! how they lie is not asked. Absent: what is asked node by node where something is near (`around`).
+//! An axis with no surface and no stem within the reach of its growth unit asks once a unit, makes its nodes as in the
+//! open, and how they lie is not asked. Absent: a unit that is followed past stems (`follow`), and what is asked node
+//! by node where something is near (`around`).
 
 use phytomer_sim::plant::{AxisId, NodeId, Plant};
 use phytomer_sim::pose::bud_base;

@@ -16,6 +16,8 @@ mod segments;
 mod stem;
 #[cfg(test)]
 mod tests;
+#[cfg(test)]
+mod tests_line;
 
 pub use beside::{Beside, Spared, Touch};
 pub use line::Line;

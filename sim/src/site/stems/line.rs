@@ -1,8 +1,8 @@
 //! The middle line of a growth unit before its nodes are made, and whether it touches no stem.
 //!
-//! The stems are asked once for some internodes together, by the box about them. A line that passes them touches none as
-//! [`Beside::touched`](super::Beside::touched) finds it, internode by internode: a line that is not known to pass has to
-//! be asked so. Absent: the way past a stem that is touched.
+//! The stems are asked once for some internodes together, by the box about them. A line that passes them touches none
+//! as [`Beside::touched`](super::Beside::touched) finds it, internode by internode: a line that is not known to pass
+//! has to be asked so. Absent: the way past a stem that is touched.
 
 use super::beside::ROUNDING;
 use super::of_plant::OfPlant;
