@@ -1,6 +1,6 @@
 //! Plants in stands whose axes ask about stems and surfaces once a growth unit, where they meet nothing, are those
 //! whose axes ask at each node: species drawn at random, far from one another, in one another, with boxes that just
-//! touch, and on the ground beside a block.
+//! touch, and above ground beside a block.
 //!
 //! A bud that feels ahead by next to nothing feels nothing, but lets each node ask. Absent: what shoots do that meet
 //! something (`tests_contact`, `tests_stems`).
@@ -53,7 +53,7 @@ fn block() -> Obstacle {
     Obstacle { shape: Arc::new(shape), kills: Side::Inside, manner: Manner::Blocks { holds: true } }
 }
 
-/// Three plants in a row, so far apart, on the ground beside a block if they are among `solids`; `None` where one of
+/// Three plants in a row, so far apart, a little above ground beside a block if they are among `solids`; `None` where one of
 /// them outgrows its room.
 fn grown<'m>(
     model: &'m BudModel,
@@ -63,7 +63,7 @@ fn grown<'m>(
 ) -> Option<Plot<'m>> {
     let sowing = |number: u32, x: f64| {
         let seed = Seed { plant: number, draws: number.into(), run_seed: 23, component_limit: 4000, keep_events: true };
-        Sowing { species: 0, seed, place: [x, 0.0, 0.0], sown: number % 2 }
+        Sowing { species: 0, seed, place: [x, 0.0, 0.01], sown: number % 2 }
     };
     let sowings = [sowing(0, 0.0), sowing(1, apart[0]), sowing(2, apart[0] + apart[1])];
     let mut plot = Plot::new(0, vec![model], &sowings);

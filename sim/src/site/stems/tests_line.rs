@@ -18,7 +18,7 @@ fn direction(fraction: &mut impl FnMut() -> f32) -> [f32; 3] {
 
 fn wood(fraction: &mut impl FnMut() -> f32) -> Wood {
     let mut all = Wood::new();
-    for _ in 0..60 {
+    for _ in 0..500 {
         let (mut at, mut heading) = ([0, 1, 2].map(|_| fraction()), direction(fraction));
         let (length, radius) = (0.01 + 0.03 * fraction(), 0.001 + 0.006 * fraction());
         for _ in 0..ALONG {
@@ -41,9 +41,10 @@ fn a_line_that_passes_all_stems_touches_none() {
             plant
         })
         .collect();
+    let stood = [Whose::All, Whose::Neighbours].map(|whose| stems(plants.clone(), whose));
     let (mut passed, mut touched, mut unknown) = (0, 0, 0);
     for round in 0..4_000 {
-        let all = stems(plants.clone(), if round < 2_000 { Whose::All } else { Whose::Neighbours });
+        let all = &stood[round / 2_000];
         // Every other line begins at a node of an axis as a lateral does, the others anywhere.
         let of = &plants[round % 4];
         let base = of.stems[round * 7 % of.stems.len()].end.map(f64::from);
@@ -57,7 +58,7 @@ fn a_line_that_passes_all_stems_touches_none() {
         for _ in 0..1 + round % 15 {
             let end = [0, 1, 2].map(|k| at[k] + length * f64::from(heading[k]));
             line.go_on(end, room);
-            beside.glance(&all, at, [1.5 * length + room, 0.001, 0.0], spared);
+            beside.glance(all, at, [1.5 * length + room, 0.001, 0.0], spared);
             touches = touches || beside.touched([at, end], room, true).is_some();
             let turn = direction(&mut fraction);
             (at, heading) = (end, [0, 1, 2].map(|k| heading[k] + 0.1 * turn[k]));
