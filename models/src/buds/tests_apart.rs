@@ -53,8 +53,8 @@ fn block() -> Obstacle {
     Obstacle { shape: Arc::new(shape), kills: Side::Inside, manner: Manner::Blocks { holds: true } }
 }
 
-/// Three plants in a row, so far apart, a little above ground beside a block if they are among `solids`; `None` where one of
-/// them outgrows its room.
+/// Three plants in a row, so far apart, a little above ground beside a block if they are among `solids`; `None` where
+/// one of them outgrows its room.
 fn grown<'m>(
     model: &'m BudModel,
     apart: [f64; 2],
