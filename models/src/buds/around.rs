@@ -71,9 +71,9 @@ impl<'a> Around<'a> {
         !site.solids().is_empty() || site.stems.as_deref().is_some_and(|stems| !stems.is_empty())
     }
 
-    /// Whether a bud feels anything before it grows: a surface may have come to it, else it must feel ahead.
-    pub fn feels(site: &Site, laws: &ContactLaws) -> bool {
-        !site.solids().is_empty() || laws.cone.length > 0.0 || laws.answer == Answer::Fasten
+    /// Whether buds feel what is at a distance from them before they grow, ahead or beside them.
+    pub fn feels(laws: &ContactLaws) -> bool {
+        laws.cone.length > 0.0 || laws.answer == Answer::Fasten
     }
 
     /// What is around the bud of an axis which stood at `start` at the end of the last tick.

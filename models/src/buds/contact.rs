@@ -15,18 +15,19 @@ use super::grow::{Axis, Full};
 use super::node::Drawn;
 use super::params::{Answer, ApexEnd};
 use super::start::Start;
+use crate::law::At;
 use phytomer_sim::plant::{ApexFate, EventKind, NodeId, OrganId, Plant, Rest};
 use phytomer_sim::site::Site;
 use phytomer_sim::site::solids::CLEARANCE;
-use phytomer_sim::site::stems::{Beside, Spared};
+use phytomer_sim::site::stems::{Beside, Spared, Stems, Whose};
 use phytomer_sim::site::way::Step;
 
 impl<'a> Axis<'a> {
     /// Lets its shoots meet the solids and stems of a site.
     pub fn look_around(&mut self, site: Option<&'a Site>) {
         self.met = site.filter(|site| Around::meets(site));
-        if self.met.is_some_and(|site| !Around::feels(site, &self.model.contact)) {
-            self.start = Some(Start::of(self.plant, self.bud.axis));
+        if let Some(site) = self.met.filter(|_| !Around::feels(&self.model.contact)) {
+            self.start = Start::of(self.plant, self.bud.axis).among(site.solids());
         }
     }
 
@@ -35,23 +36,35 @@ impl<'a> Axis<'a> {
         self.met.is_none() || self.start.is_some()
     }
 
-    /// Whether a growth unit of so many nodes meets nothing, so that none of its nodes asks. From the first unit that
-    /// may meet something, each node of the axis asks until the end of the tick; what was planned is made before.
+    /// Whether a growth unit of so many nodes, which is decided on at a point of the laws, meets nothing, so that none
+    /// of its nodes asks. From the first unit that may meet something, each node of the axis asks until the end of the
+    /// tick; what was planned is made before.
     #[inline(always)]
-    pub(super) fn is_free(&mut self, short: bool, nodes: u32) -> Result<bool, Full> {
-        if self.met.is_none() { Ok(true) } else { self.asks_whether_free(short, nodes) }
+    pub(super) fn is_free(&mut self, at: &At, short: bool, nodes: u32) -> Result<bool, Full> {
+        if self.met.is_none() { Ok(true) } else { self.asks_whether_free(at, short, nodes) }
     }
 
     #[inline(never)]
-    fn asks_whether_free(&mut self, short: bool, nodes: u32) -> Result<bool, Full> {
-        let (Some(site), Some(start)) = (self.met, &mut self.start) else { return Ok(false) };
-        let (plant, axis) = (self.plant.id, self.bud.axis);
-        let spared = Spared { plant, axis: axis.0 };
-        let grows = |stems| start.grows(&self.laws.reach, (short, nodes), stems, spared);
-        if nodes == 0 || site.stems.as_deref().is_none_or(grows) {
+    fn asks_whether_free(&mut self, at: &At, short: bool, nodes: u32) -> Result<bool, Full> {
+        let (Some(site), Some(start)) = (self.met, self.start) else { return Ok(false) };
+        if nodes == 0 {
             return Ok(true);
         }
-        let start = *start;
+        let (plant, axis, reach) = (self.plant.id, self.bud.axis, &self.laws.reach);
+        let spared = Spared { plant, axis: axis.0 };
+        let length = reach.length(short, nodes);
+        let passes = |stems: &Stems| {
+            // Wood of its own is beside nearly every bud.
+            let has_own = stems.whose() == Whose::All && start.grown == 0.0;
+            let is_far = !has_own && start.is_far(stems, length + reach.radius, spared);
+            is_far || self.passes_stems(at, (short, nodes), stems, spared)
+        };
+        let is_clear = start.is_clear_of(site.solids(), length + reach.radius.max(reach.leaf));
+        if is_clear && site.stems.as_deref().filter(|stems| !stems.is_empty()).is_none_or(passes) {
+            self.start = Some(start.behind(length));
+            return Ok(true);
+        }
+        let start = start.before(length - reach.length(short, 1));
         (self.start, self.plans) = (None, false);
         self.make_planned()?;
         self.around = Some(Box::new(Around::of(site, self.model.contact, self.plant, axis, start)));
@@ -62,7 +75,7 @@ impl<'a> Axis<'a> {
     #[inline]
     pub(super) fn feel(&mut self) {
         let Some(site) = self.met else { return };
-        if self.around.is_some() || Around::feels(site, &self.model.contact) {
+        if self.around.is_some() || self.start.is_none() {
             let plant = &*self.plant;
             let around = self.around.get_or_insert_with(|| around(site, self.model, plant, self.bud));
             self.contact = u32::from(around.feel(plant));

@@ -319,7 +319,7 @@ impl<'a> Axis<'a> {
             false => [preformed, neoformed],
         };
         let nodes = preformed + neoformed;
-        let is_free = self.is_free(short, nodes)?;
+        let is_free = self.is_free(&at, short, nodes)?;
         if laws.zone_ranks.are_drawn() {
             let Words { zones, .. } = &mut *self.words;
             let mut drawn = std::mem::take(zones);

@@ -14,6 +14,7 @@ mod compile;
 mod contact;
 mod cuts;
 pub mod expectation;
+mod follow;
 mod grow;
 mod lives;
 mod model;

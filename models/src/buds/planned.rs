@@ -142,7 +142,7 @@ impl Axis<'_> {
     }
 
     /// Takes the bud back to the step at which it decided on a growth unit, as far as its nodes ask.
-    fn decide_again(&mut self, at: At) {
+    pub(super) fn decide_again(&mut self, at: At) {
         let (cycle, units, birth, state) = (at.cycle, at.unit, at.bud_birth, at.state);
         self.bud = ApicalBud { cycle, units, birth, state, ..self.bud };
         self.set_tick(at.age);

@@ -11,6 +11,7 @@ use super::together::{Ahead, AtHand, NodeWords, OfBud, WORDS_AT_ONCE};
 use phytomer_sim::clock::Tick;
 use phytomer_sim::plant::{LineageKey, Plant};
 use phytomer_sim::random::{PlantRandom, Purpose, Stream};
+use phytomer_sim::site::stems::Line;
 use std::cell::Cell;
 
 /// The words of one axis.
@@ -46,6 +47,8 @@ pub(super) struct Words {
     of_bud: OfBud,
     /// Room for making them.
     pub columns: Columns,
+    /// Room for the line of a growth unit that is about to grow.
+    pub line: Line,
 }
 
 thread_local! {

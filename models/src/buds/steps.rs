@@ -37,6 +37,10 @@ impl Axis<'_> {
             while at.cycle < due {
                 at.cycle += 1;
                 self.read_plain_step(at.cycle - 1, in_all);
+                if self.around.is_some() {
+                    self.feel();
+                    at.contact = self.contact;
+                }
                 let words = self.words.step();
                 if tests.death.happens(words, &at) {
                     self.stand_at(&at);
@@ -49,9 +53,10 @@ impl Axis<'_> {
                 let short = tests.short.happens(words, &at);
                 let number = if short { &laws.short_nodes } else { &laws.long_nodes };
                 let nodes = number.draw_at(words, &at);
-                if !self.is_free(short, nodes)? {
+                if !self.is_free(&at, short, nodes)? {
                     self.stand_at(&at);
                     self.feel();
+                    at.contact = self.contact;
                     if !self.grow_in_step(&mut at)? {
                         return Ok(false);
                     }

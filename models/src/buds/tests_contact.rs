@@ -138,6 +138,30 @@ fn nothing_grows_below_the_ground_where_it_is_one() {
     assert!(below > 10, "in the open leaves of {below} plants hang below the seed");
 }
 
+/// A shoot whose growth units come near no wall, but whose leaves would pass through it: each leaf then lies along it.
+#[test]
+fn leaves_lie_along_a_wall_that_their_shoot_is_far_from() {
+    let model = compiled(
+        serde_json::json!({"order": [{
+            "growth_unit": {"nodes": 9}, "internode": {"length_cm": 0.3, "diameter_mm": 2}, "phyllotaxis": 137.5,
+            "leaf": {"per_node": 1, "length_cm": 9, "width_cm": 1, "insertion_deg": 60},
+        }]}),
+        9,
+    );
+    let wall = Shape::HalfSpace(HalfSpace { point: [0.05, 0.0, 0.0], normal: [-1.0, 0.0, 0.0] });
+    let farthest = |plant: &Plant| {
+        let tip = |organ: usize| {
+            let frame = organ_frame(plant, OrganId(organ as u32), 9);
+            f64::from(frame.base[0]) + f64::from(plant.organs.length[organ] * frame.heading[0])
+        };
+        (0..plant.organs.len()).map(tip).fold(f64::NEG_INFINITY, f64::max)
+    };
+    let open = grown(&model, 9, 0, |_| ());
+    let beside = grown(&model, 9, 0, |plot| plot.site.obstacles.push(blocks(wall.clone(), Side::Inside)));
+    assert!(farthest(&open) > 0.07 && farthest(&beside) < 0.05, "{} {}", farthest(&open), farthest(&beside));
+    assert!(open.organs.len() == beside.organs.len() && beside.stated.is_empty());
+}
+
 /// An obstacle that is never reached leaves every bit, and so does an answer of the species.
 #[test]
 fn what_is_never_met_changes_nothing() {

@@ -10,13 +10,17 @@
 
 mod beside;
 mod cells;
+mod line;
 mod of_plant;
 mod segments;
 mod stem;
 #[cfg(test)]
 mod tests;
+#[cfg(test)]
+mod tests_line;
 
 pub use beside::{Beside, Spared, Touch};
+pub use line::Line;
 
 use crate::clock::Tick;
 use crate::plant::Plant;

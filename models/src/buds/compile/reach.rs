@@ -12,16 +12,19 @@ pub struct Reach {
     longest: [f64; 2],
     /// The largest radius of an internode at its birth.
     pub radius: f64,
+    /// The longest leaf, metres.
+    pub leaf: f64,
 }
 
 impl Reach {
     /// That of laws on which responses have yet to act.
-    pub const UNKNOWN: Self = Self { longest: [f64::INFINITY; 2], radius: f64::INFINITY };
+    pub const UNKNOWN: Self = Self { longest: [f64::INFINITY; 2], radius: f64::INFINITY, leaf: f64::INFINITY };
 
     /// That of laws on which responses act already.
     pub fn of(laws: &NodeLaws) -> Self {
         let longest = [&laws.long_length, &laws.short_length].map(|length| length.most().max(0.0));
-        Self { longest, radius: 0.5 * laws.diameter.most().max(0.0) }
+        let [radius, leaf] = [0.5 * laws.diameter.most(), laws.leaf.length.most()].map(|most| most.max(0.0));
+        Self { longest, radius, leaf }
     }
 
     /// No growth unit of so many nodes is longer, metres.

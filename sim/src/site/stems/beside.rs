@@ -12,7 +12,7 @@ use crate::site::solids::{Cone, along};
 use crate::vector::Vector;
 
 /// What frames in single precision may lack of a distance, metres.
-const ROUNDING: f64 = 1e-6;
+pub(super) const ROUNDING: f64 = 1e-6;
 /// The halvings by which the place is found at which a cone meets a stem.
 const HALVINGS: usize = 40;
 
@@ -53,7 +53,7 @@ pub struct Touch {
 
 impl Near {
     /// The distance of a segment, with the shares of both lengths at which they are nearest.
-    fn distance_of(&self, way: &Segment) -> (f64, [f64; 2]) {
+    pub(super) fn distance_of(&self, way: &Segment) -> (f64, [f64; 2]) {
         let shares = way.shares_near(&self.middle);
         (length(way.at(shares[0]) - self.middle.at(shares[1])) - self.radius(shares[1]), shares)
     }

@@ -1,6 +1,6 @@
 //! The cells of space in which the stems of a plant lie, so that a bud asks those beside it alone.
 //!
-//! Cells are cubes of one edge, twice as long as the stems are on average; they stand in bricks of 8 × 8 × 8 that
+//! Cells are cubes of one edge, twice as long as the stems are on average; they stand in bricks of 4 × 4 × 4 that
 //! are made where stems come, so memory follows the wood. A stem is entered in the cell of its middle, with the radius
 //! that it was entered for, and stays there from tick to tick as long as it stands where it stood; who asks looks as
 //! much farther as the widest of them reaches. One that is wider than a cell is entered once in each cell that the box
@@ -12,7 +12,7 @@ use super::Stem;
 use crate::shape::Point;
 
 /// The cells along an edge of a brick, as a power of 2.
-const BITS: u32 = 3;
+const BITS: u32 = 2;
 /// The last cell along an edge of a brick.
 const LAST: i32 = (1 << BITS) - 1;
 /// The cells of a brick.
@@ -44,8 +44,8 @@ pub(super) struct Cells {
     /// The bricks by their places, in a table of open addresses.
     table: Vec<u32>,
     bricks: Vec<[i32; 3]>,
-    /// Which cells of each brick hold anything, a bit each; a number for each layer of 8 × 8.
-    full: Vec<[u64; 1 << BITS]>,
+    /// Which cells of each brick hold anything, a bit each.
+    full: Vec<u64>,
     /// The first entry of each cell, brick by brick.
     first: Vec<u32>,
     entries: Vec<Entry>,
@@ -86,8 +86,12 @@ impl Cells {
 
     /// The cells to be asked about a ball; `None` where they are too many.
     pub fn about(&self, point: Point, reach: f64) -> Option<Range> {
-        let reach = reach + self.widest;
-        let range = range_of(self.edge, [point.map(|x| x - reach), point.map(|x| x + reach)]);
+        self.around([point.map(|x| x - reach), point.map(|x| x + reach)])
+    }
+
+    /// The cells to be asked about a box; `None` where they are too many.
+    pub fn around(&self, [low, high]: [Point; 2]) -> Option<Range> {
+        let range = range_of(self.edge, [low.map(|x| x - self.widest), high.map(|x| x + self.widest)]);
         (count(&range) <= MOST_ASKED).then_some(range)
     }
 
@@ -153,7 +157,7 @@ impl Cells {
         // The part before may have been entered here.
         if next == NONE || self.entries[next as usize].node != node {
             self.first[slot] = self.entry(Entry { node, next });
-            self.full[brick][inner >> (2 * BITS)] |= 1 << (inner & 63);
+            self.full[brick] |= 1 << inner;
         }
     }
 
@@ -192,7 +196,7 @@ impl Cells {
             (before, entry) = (entry, next);
         }
         if self.first[slot] == NONE {
-            self.full[brick][inner >> (2 * BITS)] &= !(1 << (inner & 63));
+            self.full[brick] &= !(1 << inner);
         }
     }
 
@@ -219,22 +223,19 @@ impl Cells {
 
     /// Shows the stems of a box of cells within a brick; whether one of them was enough.
     fn each_in_brick(&self, brick: usize, [low, high]: Range, is_enough: &mut impl FnMut(u32) -> bool) -> bool {
-        // A byte is a row along x.
-        let row = (0xff_u64 << low[0]) & (0xff >> (LAST - high[0]));
-        let rows = (u64::MAX << (8 * low[1])) & (u64::MAX >> (8 * (LAST - high[1])));
-        let layer = row.wrapping_mul(0x0101_0101_0101_0101) & rows;
-        for z in low[2]..=high[2] {
-            let mut full = self.full[brick][z as usize] & layer;
-            while full != 0 {
-                let cell = ((z as usize) << (2 * BITS)) | full.trailing_zeros() as usize;
-                full &= full - 1;
-                let mut entry = self.first[brick * CELLS + cell];
-                while let Some(Entry { node, next }) = self.entries.get(entry as usize) {
-                    if is_enough(*node) {
-                        return true;
-                    }
-                    entry = *next;
+        // Four bits are a row along x, and four rows a layer.
+        let row = (0xf_u64 << low[0]) & (0xf >> (LAST - high[0]));
+        let layer = (row * 0x1111) & (0xffff << (4 * low[1])) & (0xffff >> (4 * (LAST - high[1])));
+        let layers = (u64::MAX << (16 * low[2])) & (u64::MAX >> (16 * (LAST - high[2])));
+        let mut full = self.full[brick] & (layer * 0x0001_0001_0001_0001) & layers;
+        while full != 0 {
+            let mut entry = self.first[brick * CELLS + full.trailing_zeros() as usize];
+            full &= full - 1;
+            while let Some(Entry { node, next }) = self.entries.get(entry as usize) {
+                if is_enough(*node) {
+                    return true;
                 }
+                entry = *next;
             }
         }
         false
@@ -275,7 +276,7 @@ impl Cells {
         }
         let brick = self.bricks.len() as u32;
         self.bricks.push(place);
-        self.full.push([0; 1 << BITS]);
+        self.full.push(0);
         self.first.resize(self.first.len() + CELLS, NONE);
         if self.bricks.len() * 2 > self.table.len() {
             self.table = vec![NONE; self.table.len() * 4];

@@ -6,7 +6,7 @@ use crate::site::solids::Cone;
 use crate::vector::Vector;
 
 /// A plant of stems, each an axis of its own.
-fn of_plant(number: u32, place: Point, stems: &[([f32; 3], [f32; 3], f32)]) -> OfPlant {
+pub(super) fn of_plant(number: u32, place: Point, stems: &[([f32; 3], [f32; 3], f32)]) -> OfPlant {
     let stem = |(axis, &(start, end, radius)): (usize, &([f32; 3], [f32; 3], f32))| Stem {
         start,
         end,
@@ -21,7 +21,7 @@ fn of_plant(number: u32, place: Point, stems: &[([f32; 3], [f32; 3], f32)]) -> O
     OfPlant { number, place, about: about(&stems, place), stems, standing, length, pieces, ..OfPlant::default() }
 }
 
-fn stems(plants: Vec<OfPlant>, whose: Whose) -> Stems {
+pub(super) fn stems(plants: Vec<OfPlant>, whose: Whose) -> Stems {
     let mut stems = Stems { whose, plants, ..Stems::default() };
     stems.number();
     stems
@@ -33,7 +33,7 @@ fn about(stems: &[Stem], place: Point) -> Bounds {
 }
 
 /// Numbers in [0, 1) without an order.
-fn fractions(mut state: u64) -> impl FnMut() -> f32 {
+pub(super) fn fractions(mut state: u64) -> impl FnMut() -> f32 {
     move || {
         state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         (state >> 40) as f32 / (1 << 24) as f32

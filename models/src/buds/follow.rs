@@ -1,0 +1,45 @@
+//! Whether a growth unit touches no stem, found before its nodes are made: its internodes are drawn, and the line that
+//! they take is followed.
+//!
+//! So an axis that has stems beside it, as each lateral has its bearer, still makes its nodes as in the open. Drawn
+//! again as they are made, they are the same, since draws have their places. Absent: what a bud does about a stem
+//! (`contact`).
+
+use super::grow::Axis;
+use crate::law::At;
+use phytomer_sim::pose::Ahead;
+use phytomer_sim::site::solids::CLEARANCE;
+use phytomer_sim::site::stems::{Spared, Stems};
+
+/// The most nodes that are drawn before they are made.
+const MOST: u32 = 1_000;
+
+impl Axis<'_> {
+    /// Whether a growth unit of so many nodes, which is decided on at a point of the laws, is soon known to touch no
+    /// stem. Of a tick the first alone is followed, since it grows from where the axis is posed.
+    pub(super) fn passes_stems(&mut self, at: &At, (short, nodes): (bool, u32), stems: &Stems, of: Spared) -> bool {
+        let Some(start) = self.start.filter(|start| start.grown == 0.0 && nodes <= MOST) else { return false };
+        let (bud, tick, mut line) = (self.bud, self.tick, std::mem::take(&mut self.words.line));
+        self.decide_again(*at);
+        let mut ahead = Ahead::of_bud(self.plant, bud.axis, start.node);
+        let place = self.plant.place;
+        let tip = |ahead: &Ahead| {
+            let base = ahead.base();
+            [0, 1, 2].map(|k| place[k] + base[k])
+        };
+        line.begin(tip(&ahead));
+        for rank in 1..=nodes {
+            self.read_node();
+            let drawn = self.draw_internode(rank, [short, false]);
+            ahead.tend(self.plant, bud.axis, drawn.trend);
+            ahead.grow(f64::from(drawn.length));
+            line.go_on(tip(&ahead), CLEARANCE + 0.5 * f64::from(drawn.diameter));
+            self.bud.rank += 1;
+        }
+        self.bud = bud;
+        self.set_tick(tick);
+        let passes = stems.are_passed(&line, of);
+        self.words.line = line;
+        passes
+    }
+}
