@@ -30,6 +30,13 @@ const LOOKS: u32 = 5;
 /// The samples along the longest side of an outline: at most a pixel of a picture of a plant at which levels change.
 const SAMPLES: u32 = 480;
 
+/// A plant of more triangles is tried on every so many rows of these, within a little less, and what is found is looked
+/// at on all of them: of the rows of a crown each has a difference of its own, so that the mean of a few is near that
+/// of all.
+const LARGE: u64 = 400_000;
+const ROWS_APART: u32 = 6;
+const MOST_APART_IN_ROWS: f64 = 0.0225;
+
 /// The steps of an octave of tolerances, and the step of the largest.
 const STEPS: u32 = 32;
 const LAST: u32 = 24 * STEPS;
@@ -89,7 +96,7 @@ pub fn levels(plant: &Plant, age: Tick, first: &MeshOptions, most: &[Option<u64>
     let mut found = vec![search.first()];
     for (level, most) in (1..).zip(most) {
         let before = &found[level - 1];
-        let coarser = search.coarser(before, most.unwrap_or((before.faces as f64 * AIM) as u64));
+        let coarser = search.checked(before, *most);
         match (coarser, most) {
             (Found::Fits(tried), _) => found.push(tried),
             (Found::Least(tried), Some(most)) => return Err(TooCoarse { level, most: *most, least: tried.faces }),
@@ -135,6 +142,8 @@ struct Search<'p> {
     age: Tick,
     options: &'p MeshOptions,
     outline: Option<(Sides, Outline)>,
+    /// All rows and what the first level covers of them, where outlines are tried on some of them.
+    all_rows: Option<(Sides, Outline)>,
     faces: u64,
     /// The distance of each step, metres.
     distances: Vec<f32>,
@@ -169,13 +178,21 @@ impl<'p> Search<'p> {
         };
         let sides = Sides::around(&scene, &costs, SAMPLES);
         let farthest = sides.as_ref().map_or(0.0, Sides::longest) * OF_LONGEST;
-        let outline = sides.map(|sides| (sides.clone(), sides.of(&sides.of_wood(&scene), &scene, &costs)));
+        let faces = scene.counts().faces;
+        let with_outline = |sides: Sides| {
+            let outline = sides.of(&sides.of_wood(&scene), &scene, &costs);
+            (sides, outline)
+        };
+        let some_rows = sides.as_ref().filter(|_| faces > LARGE).map(|sides| with_outline(sides.sparser(ROWS_APART)));
+        let (mut outline, mut all_rows) = (sides.map(with_outline), None);
+        if some_rows.is_some() {
+            all_rows = std::mem::replace(&mut outline, some_rows);
+        }
         let last = distances.partition_point(|distance| *distance < farthest).clamp(1, LAST as usize) as u32;
         let octaves = options.tolerance.map_or(0.0, |own| log2(f64::from(own.distance / Tolerance::LEAST)));
         let step = (octaves * f64::from(STEPS)).clamp(0.0, f64::from(last)) as u32;
-        let faces = scene.counts().faces;
         let (wood_faces, looked, organs) = (BTreeMap::new(), None, None);
-        Self { plant, age, options, outline, faces, distances, step, last, costs, wood_faces, looked, organs }
+        Self { plant, age, options, outline, all_rows, faces, distances, step, last, costs, wood_faces, looked, organs }
     }
 
     fn first(&self) -> Tried {
@@ -229,7 +246,32 @@ impl<'p> Search<'p> {
             organs.insert(known).1.with(wood)
         };
         tried.apart = outline.apart(first);
+        tried.apart.area <= if self.all_rows.is_some() { MOST_APART_IN_ROWS } else { MOST_APART }
+    }
+
+    /// Looks at the outline of a mesh on all rows, and tells whether it holds.
+    fn holds_on_all_rows(&mut self, tried: &mut Tried) -> bool {
+        self.look(tried.step);
+        let Self { all_rows: Some((sides, first)), looked: Some(looked), costs, .. } = self else { return true };
+        looked.scene.thin(tried.options.thinned);
+        tried.apart = sides.of(&sides.of_wood(&looked.scene), &looked.scene, costs).apart(first);
         tried.apart.area <= MOST_APART
+    }
+
+    /// The next level after one, looked at on all rows. Where the rows that were tried have misled, all are tried from
+    /// then on.
+    fn checked(&mut self, before: &Tried, stated: Option<u64>) -> Found {
+        let most = stated.unwrap_or((before.faces as f64 * AIM) as u64);
+        let mut found = self.coarser(before, most);
+        let holds = match &mut found {
+            Found::Least(tried) if stated.is_none() && tried.faces as f64 > WORTH * before.faces as f64 => true,
+            Found::Fits(tried) | Found::Least(tried) => self.holds_on_all_rows(tried),
+        };
+        if holds {
+            return found;
+        }
+        (self.outline, self.looked, self.organs) = (self.all_rows.take(), None, None);
+        self.coarser(before, most)
     }
 
     /// The next level after one, of at most so many triangles.

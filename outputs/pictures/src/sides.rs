@@ -102,6 +102,14 @@ impl Sides {
         Some(Self { lattice, longest })
     }
 
+    /// The same with a row for so many rows, and as many columns.
+    pub fn sparser(&self, by: u32) -> Self {
+        let (over, Lattice { rows, top, scale, .. }) = (1.0 / by as f32, &self.lattice);
+        let lattice =
+            Lattice { rows: rows.div_ceil(by), top: *top * over, scale: *scale * over, ..self.lattice.clone() };
+        Self { lattice, longest: self.longest }
+    }
+
     /// The longest side of the plant, metres.
     pub fn longest(&self) -> f32 {
         self.longest

@@ -24,8 +24,10 @@ mod tests;
 #[cfg(test)]
 mod tests_feet;
 
+pub(super) use flare::{corners_of, most_of_trunk, shares};
+
 use super::chunk::{Face, Vertex};
-use super::dress::covered;
+use super::dress::bark_covers;
 use super::reduced::chain::Sample;
 use super::reduced::{sides, simplify::simplify};
 use super::stem::Stems;
@@ -356,7 +358,7 @@ impl<'s> Stand<'s> {
                 let ([_, over], below) = all[bearer];
                 below + at / f64::from(over)
             });
-            all.push((size.map_or([1.0; 2], |size| covered(size, around)), below));
+            all.push((size.map_or([1.0; 2], |size| bark_covers(size, around)), below));
         }
         all
     }
