@@ -156,7 +156,8 @@ impl Drawn<'_> {
         (0..plan.targets.len()).try_for_each(|key| self.write_target(plan, key, &mut scratch, out))
     }
 
-    /// Appends the vertices of a patch as it is in the mesh; white, with texture coordinates, where a picture covers it.
+    /// Appends the vertices of a patch as it is in the mesh; white, with texture coordinates, where a picture covers
+    /// it.
     fn put(&self, patch: Patch, is_covered: bool, scratch: &mut Scratch, bytes: &mut Vec<u8>) {
         let keyed = &self.body.keyed;
         let textures = if is_covered { self.textures(patch, scratch) } else { Vec::new() };

@@ -228,6 +228,18 @@ impl Outline {
     }
 }
 
+impl Apart {
+    /// Where between this outline, which does not hold, and one that does lies the first that holds within a bound, if
+    /// the differences from each side change evenly: the part of the way.
+    pub fn part_that_holds(&self, high: &Self, bound: f64) -> f64 {
+        let sides = self.by_side.iter().zip(&high.by_side).map(|(low, high)| {
+            let way = high - low;
+            if way.abs() > 1e-9 { (low.clamp(-bound, bound) - low) / way } else { 0.0 }
+        });
+        sides.fold(0.0, f64::max).clamp(0.1, 0.75)
+    }
+}
+
 /// Calls `take` with balls that hold all that is drawn, but for what leans far out of its own length.
 pub fn each_ball(scene: &Scene, take: &mut dyn FnMut(Vec3, f32)) {
     let (plant, age) = (scene.plant(), scene.age());

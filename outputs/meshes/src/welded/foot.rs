@@ -130,9 +130,9 @@ impl Out {
         (end - high > 0.02 * stations[first].radius + 1e-6).then_some(Self { own: high, bearer: at })
     }
 
-    /// The first length at which more than half of a limb lies in another one, looked for over some radii from where its
-    /// line comes out of its bearer. One of which less does so goes through the other on its own: what both fill is then
-    /// less than what would be missing, were its skin to begin where it has left the other.
+    /// The first length at which more than half of a limb lies in another one, looked for over some radii from where
+    /// its line comes out of its bearer. One of which less does so goes through the other on its own: what both fill is
+    /// then less than what would be missing, were its skin to begin where it has left the other.
     pub fn within(other: &Course, own: &Course, out: f64) -> Option<f64> {
         let (r, end) = (own.radius(out), own.ends()[1]);
         let mut near = other.ends()[0];
@@ -153,8 +153,8 @@ fn shared(apart: f64, other: f64, r: f64) -> f64 {
         return (other * other / (r * r)).min(1.0);
     }
     // Half of the chord in which both circles cut, and of each the part beyond it.
-    let [own_side, other_side] =
-        [[r, other], [other, r]].map(|[of, to]| (apart * apart + of * of - to * to) / (2.0 * apart));
+    let side = |of: f64, to: f64| (apart * apart + of * of - to * to) / (2.0 * apart);
+    let [own_side, other_side] = [side(r, other), side(other, r)];
     let chord = (r * r - own_side * own_side).max(0.0).sqrt();
     let part = |of: f64, side: f64| of * of * atan2(chord, side) - side * chord;
     (part(r, own_side) + part(other, other_side)) / (PI * r * r)

@@ -24,8 +24,6 @@ mod tests;
 #[cfg(test)]
 mod tests_feet;
 
-pub(super) use flare::{corners_of, most_of_trunk, shares};
-
 use super::chunk::{Face, Vertex};
 use super::dress::bark_covers;
 use super::reduced::chain::Sample;
@@ -33,6 +31,7 @@ use super::reduced::{sides, simplify::simplify};
 use super::stem::Stems;
 use super::{Counts, Tolerance};
 use course::{Course, Station};
+pub(super) use flare::{corners_of, most_of_trunk, shares};
 use foot::{Foot, Out};
 use fork::Fork;
 use glam::{DVec3, Vec3};
