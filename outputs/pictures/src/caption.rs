@@ -10,9 +10,9 @@ use super::letters::{width, written};
 pub const INK: [u8; 3] = [70, 66, 60];
 const LIGHT: [u8; 3] = [242, 240, 234];
 
-/// The luminance, as a share of white's, below which light text has more contrast than dark text, about (WCAG 2,
-/// relative luminance).
-const DARK: f64 = 0.25;
+/// The luminance, as a share of white's, below which ground is dark: there dark text has a contrast of less than 2.4,
+/// and light text one of more than 3.6 (WCAG 2, relative luminance).
+const DARK: f64 = 0.2;
 
 /// The colour of text in a box, from its left and upper corner to the other.
 fn ink(canvas: &Canvas, [left, top, right, bottom]: [f32; 4]) -> [u8; 3] {
