@@ -124,6 +124,22 @@ fn detail_0_is_the_default_and_a_focus_is_another_picture() {
     assert!(draw("1") == draw("5"), "threads");
 }
 
+/// A flower that is made of internodes fills a picture as an organ does.
+#[test]
+fn a_flower_of_internodes_is_found() {
+    let folder = tempdir().expect("a temporary folder");
+    let bytes = picture(folder.path(), &["dog_rose", "--age", "6", "--focus", "flower", "--detail", "1"]);
+    let mut reader = png::Decoder::new(std::io::Cursor::new(bytes)).read_info().expect("PNG");
+    let mut pixels = vec![0; reader.output_buffer_size().expect("a size")];
+    let info = reader.next_frame(&mut pixels).expect("a picture");
+    let step = info.color_type.samples();
+    let pink = |pixel: &&[u8]| pixel[0] > 150 && pixel[0] > pixel[1] + 12 && pixel[2] > pixel[1];
+    let pink = pixels.chunks_exact(step).filter(pink).count();
+    assert!(10 * pink > 2 * 160 * 120, "{pink} of {} pixels are petals", 160 * 120);
+    let none = run(folder.path(), &["picture", "dog_rose", "--age", "6", "--focus", "fruit", "--out", "no.png"]);
+    assert_ne!(none.code, Some(0), "it has no fruit");
+}
+
 #[test]
 fn a_mesh_from_near_has_more_triangles_and_the_same_components() {
     let folder = tempdir().expect("a temporary folder");

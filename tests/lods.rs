@@ -84,7 +84,7 @@ fn said(path: &Path) -> Vec<String> {
 
 /// A reader in Python of an environment that has a module; what it finds wrong fails. Where it is missing it is
 /// skipped, but never in CI.
-fn read(environment: &str, module: &str, script: &str, arguments: &[String]) {
+fn read_by(environment: &str, module: &str, script: &str, arguments: &[String]) {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let python = root.join(environment).join("bin/python");
     let found = Command::new(&python).args(["-c", &format!("import {module}")]).output();
@@ -111,11 +111,11 @@ fn openusd_and_blender_read_the_levels() {
     assert_eq!(faces.len(), 3);
     let dashes = ["--".to_owned()];
     let of_usd = ["a.usda", "a.usdc", "a.usdz"].map(at);
-    read(".venv", "pxr", "lods_usd.py", &[&faces[..], &dashes, &of_usd].concat());
-    read(".venv", "pxr", "lods_usd.py", &[&faces[..], &dashes, &[at("merged.usdc")]].concat());
+    read_by(".venv", "pxr", "lods_usd.py", &[&faces[..], &dashes, &of_usd].concat());
+    read_by(".venv", "pxr", "lods_usd.py", &[&faces[..], &dashes, &[at("merged.usdc")]].concat());
     let of_blender = ["a.glb", "a_lod0.obj", "a_lod1.obj", "a_lod2.obj"].map(at);
     for environment in [".venv-blender-4.2", ".venv-blender"] {
-        read(environment, "bpy", "lods_blender.py", &[&faces[..], &dashes, &of_blender].concat());
+        read_by(environment, "bpy", "lods_blender.py", &[&faces[..], &dashes, &of_blender].concat());
     }
 }
 
@@ -162,6 +162,16 @@ fn plots_have_levels_of_their_plants() {
     let (first, all) = read("plot_lod0.ply");
     assert!(of_obstacles(&first, &all) > 0);
     assert_eq!(of_obstacles(&header, &bytes), of_obstacles(&first, &all));
+    // USD has the same levels as variants, with organs as instances in the first or merged, and with the obstacle.
+    let at = |name: &str| folder.path().join(name).to_str().expect("a path in UTF-8").to_owned();
+    for name in ["plot.usda", "plot.usdc", "plot.usdz", "merged.usdc"] {
+        let more: &[&str] = if name == "merged.usdc" { &["--leaves", "merged"] } else { &[] };
+        let told = written(&[&["--lods", "3", "--out", name], more].concat());
+        assert!(told.contains(&format!("{} levels", said.len())) && told.contains("outline of each plant"), "{told}");
+    }
+    let files = ["plot.usda", "plot.usdc", "plot.usdz"].map(at);
+    read_by(".venv", "pxr", "lods_usd.py", &[&said[..], &["--".to_owned()], &files].concat());
+    read_by(".venv", "pxr", "lods_usd.py", &[&said[..], &["--".to_owned(), at("merged.usdc")]].concat());
     let few = run(folder.path(), &[&plot[..], &["--lods", "90,9", "--out", "no.glb"]].concat()).ending(2).stderr;
     assert!(few.contains("--lods") && few.contains("of plot 0 at tick 24"), "{few}");
 }
@@ -179,7 +189,6 @@ fn what_cannot_be_is_told_and_leaves_nothing() {
         ("5k,6k", &[], "no.glb", "each level has fewer than the one before"),
         ("9,8", &[], "no.ply", "--lods: level 1 of plant 0 at age 18 may have 9 triangles, and has at least "),
         ("2", &["--leaves", "instances"], "no.glb", "--lods: organs that stand for others"),
-        ("2", &["--plot"], "no.usdc", "--lods: a USD file has levels of a single plant"),
         ("2", &["--cards"], "no.ply", "--cards: they have textures"),
         ("1", &["--cards"], "no.glb", "--cards: they are the last of at least two levels"),
         ("900,7", &["--cards"], "no.glb", "may have 7 triangles, and has at least 8"),

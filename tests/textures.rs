@@ -97,8 +97,10 @@ fn materials_are_by_kind_or_by_order() {
 fn a_glb_file_has_the_pictures() {
     let folder = painted(BY_ORDER);
     let words = ["mesh", "scenario.toml", "--tolerance", "1mm", "--out"];
-    let ways: [(&str, &[&str]); 4] = [
+    let life: &[&str] = &["--ages", "4..16", "--keys", "4"];
+    let ways: [(&str, &[&str]); 5] = [
         ("still", &[]),
+        ("life", life),
         ("instances", &["--leaves", "instances"]),
         ("order", &["--materials", "order"]),
         ("plot", &["--plot"]),
@@ -116,7 +118,7 @@ fn a_glb_file_has_the_pictures() {
     }
     let file = |name: &str| folder.path().join(name);
     let Some(modules) = modules() else { return };
-    for name in ["still", "instances", "order", "plot"] {
+    for name in ["still", "life", "instances", "order", "plot"] {
         let script = Path::new(ROOT).join("tests/readers/textures.mjs");
         let read = told(Command::new("node").arg(script).arg(&modules).arg(file(&format!("{name}.glb"))));
         let of = |material: &str| &read["materials"][material];

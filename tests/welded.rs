@@ -15,20 +15,20 @@ use std::fs;
 use std::path::Path;
 
 /// The specimens with their ages; of what has no age the one at which its species is shown. The pollard stands before
-/// its second cutting: after its third, at age 40, where thick shoots leave a knuckle in sharp bends, its welded wood
-/// has 2.3 % less than the union (docs/meshes.md).
-const SPECIMENS: [(&str, Option<&str>); 6] = [
+/// its second cutting, and after its third, where thick shoots leave a knuckle side by side.
+const SPECIMENS: [(&str, Option<&str>); 7] = [
     ("coffee", Some("36")),
     ("willow", Some("60")),
     ("wild_cherry", Some("40")),
     ("pollard", Some("20")),
+    ("pollard", Some("40")),
     ("wp/quaking_aspen", None),
     ("abop/2.7a", None),
 ];
 
 /// Writes a specimen with its joints.
 fn write(folder: &Path, name: &str, age: Option<&str>, joints: &str) -> String {
-    let out = format!("{}-{joints}.ply", name.replace('/', "-"));
+    let out = format!("{}-{}-{joints}.ply", name.replace('/', "-"), age.unwrap_or("shown"));
     let mut words = vec!["mesh", name, "--joints", joints, "--out", &out];
     words.extend(age.iter().flat_map(|age| ["--age", age]));
     let told = run(folder, &words).ending(0).stdout;

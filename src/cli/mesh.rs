@@ -67,6 +67,7 @@ Examples:
   phytomer mesh coffee --age 36 --lods 8k,4k --out coffee.ply
   phytomer mesh wp/quaking_aspen --lods 4 --out levels.usdc
   phytomer mesh under_a_roof --plot --age 12 --lods 3 --out plot.glb
+  phytomer mesh under_a_roof --plot --age 12 --lods 3 --out plot.usdc
   phytomer mesh wp/quaking_aspen --range 120 --fov 30 --bark 0.5 --out far.glb
   phytomer mesh wp/quaking_aspen --wind 5 --gust 3 --time 0.4 --out swaying.ply
 
@@ -135,7 +136,7 @@ impl Mesh {
             return measured::write(&self, &measured, format);
         }
         self.joining.check(self.growing.is_asked() || self.rig.asked().is_some())?;
-        self.lods.check(&self.out, format, self.plot.is_some())?;
+        self.lods.check(&self.out, format)?;
         colouring::whole("--age", self.age.as_slice(), self.dressing.colour_by.as_ref())?;
         let ages: Vec<Tick> = self.age.iter().map(|age| age.tick()).chain(self.growing.last()).collect();
         match Regrown::find(&self.name, &self.constants, &ages)? {

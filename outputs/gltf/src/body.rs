@@ -4,8 +4,9 @@
 //! move from any place to any other is such a number too. Absent: what moves where (`morph`).
 
 use super::keys::{Alone, Keyed};
-use super::paint::{CLASSES, class_of};
+use super::paint::class_of;
 use super::wood::{Ring, Tube};
+use phytomer_meshes::Slot;
 use std::ops::Range;
 
 /// The largest place on the grid, half of the largest number of 16 bits: the difference of two places must fit too.
@@ -90,7 +91,7 @@ impl<'a> Drawn<'a> {
         let mut drawn = Self { body, tubes, grid: Grid { middle: [0.0; 3], step: 1.0 }, moves: false };
         let mut bounds: Option<[[f32; 3]; 2]> = None;
         let (mut scratch, keys) = (Scratch::default(), body.keyed.keys());
-        for patch in (0..CLASSES.len()).flat_map(|class| drawn.patches(class)) {
+        for patch in (0..drawn.slots().len()).flat_map(|slot| drawn.patches(slot)) {
             for key in patch.near(0, keys)..=patch.near(keys - 1, keys) {
                 drawn.corners(patch, key, &mut scratch);
                 for at in &scratch.corners {
@@ -104,10 +105,21 @@ impl<'a> Drawn<'a> {
         drawn
     }
 
-    pub fn patches(&self, class: usize) -> impl Iterator<Item = Patch<'_>> {
-        let tubes = self.tubes.iter().filter(move |_| class == 0).map(Patch::Tube);
-        let alone = self.body.keyed.alone.iter().filter(move |alone| class_of(&alone.tag) == class);
-        tubes.chain(alone.map(Patch::Alone))
+    /// The materials.
+    pub fn slots(&self) -> &'a [Slot] {
+        self.body.keyed.slots.list()
+    }
+
+    /// What has a material.
+    pub fn patches(&self, slot: usize) -> impl Iterator<Item = Patch<'_>> {
+        let slots = &self.body.keyed.slots;
+        let of_tube = move |tube: &&Tube| slots.of_component(0, tube.first(), 0) == slot;
+        let tubes = self.tubes.iter().filter(of_tube).map(Patch::Tube);
+        let of_alone = move |alone: &&Alone| match u32::try_from(alone.tag.component) {
+            Ok(component) => slots.of_component(0, component, class_of(&alone.tag)) == slot,
+            Err(_) => slot + 1 == slots.list().len(),
+        };
+        tubes.chain(self.body.keyed.alone.iter().filter(of_alone).map(Patch::Alone))
     }
 
     pub fn corners(&self, patch: Patch, key: usize, scratch: &mut Scratch) {

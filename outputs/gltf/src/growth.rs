@@ -8,7 +8,7 @@
 
 use super::body::{Body, Drawn};
 use super::document::{Accessor, Document, MOST_BYTES, Number, too_large};
-use super::morph::{Plan, enter_class};
+use super::morph::{Plan, enter_slot};
 use serde_json::{Map, Value, json};
 use std::io::{self, Write};
 
@@ -55,9 +55,13 @@ pub fn write_growth(growth: &Growth, out: &mut (dyn Write + Send)) -> io::Result
         return Err(too_large(bytes));
     }
     let mut written = Written { vertices: 0, faces: 0, step: 0.0 };
-    let mut animated = Vec::new();
+    let (mut animated, mut pictures) = (Vec::new(), Vec::new());
+    // The bytes of pictures stand before those of all meshes.
+    let each = drawn.iter().zip(&plans).flat_map(|(drawn, plans)| plans.iter().map(move |plan| (drawn, plan)));
+    let materials = each.map(|(drawn, plan)| drawn.enter_material(&mut file, plan, &mut pictures));
+    let mut materials = materials.collect::<Vec<usize>>().into_iter();
     for (drawn, plans) in drawn.iter().zip(&plans) {
-        let node = drawn.enter(&mut file, plans, growth);
+        let node = drawn.enter(&mut file, (plans, &mut materials), growth);
         animated.extend((!plans.is_empty() && drawn.moves).then_some(node));
         written.vertices += plans.iter().map(|plan| plan.vertices).sum::<u64>();
         written.faces += plans.iter().map(|plan| plan.faces).sum::<u64>();
@@ -71,6 +75,7 @@ pub fn write_growth(growth: &Growth, out: &mut (dyn Write + Send)) -> io::Result
     let weights = growth.enter_animation(&mut file, &animated);
     growth.extras(&mut file.extras, written.step);
     file.write_head(out)?;
+    out.write_all(&pictures)?;
     for (drawn, plans) in drawn.iter().zip(&plans) {
         plans.iter().try_for_each(|plan| drawn.write(plan, out))?;
     }
@@ -115,11 +120,17 @@ impl Growth {
 }
 
 impl Drawn<'_> {
-    /// Enters the node of the body with its mesh; its index.
-    fn enter(&self, file: &mut Document, plans: &[Plan], growth: &Growth) -> usize {
+    /// Enters the node of the body with its mesh, whose materials come in the order of the plans; its index.
+    fn enter(
+        &self,
+        file: &mut Document,
+        (plans, materials): (&[Plan], &mut dyn Iterator<Item = usize>),
+        growth: &Growth,
+    ) -> usize {
         let mut node = json!({ "name": self.body.name });
         if !plans.is_empty() {
-            let primitives: Vec<Value> = plans.iter().map(|plan| enter_class(file, plan)).collect();
+            let primitives: Vec<Value> =
+                plans.iter().zip(materials).map(|(plan, of)| enter_slot(file, plan, of)).collect();
             let mut weights = vec![0; growth.ages.len()];
             weights.iter_mut().last().into_iter().for_each(|last| *last = 1);
             let names: Vec<String> = growth.ages.iter().map(|age| format!("age {age}")).collect();

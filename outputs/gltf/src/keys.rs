@@ -8,13 +8,16 @@
 
 use super::paint::class_of;
 use phytomer_life::{Life, Maker, Nearness};
-use phytomer_meshes::{Mesh, MeshOptions, Scene, Tag, Tolerance, Vertex};
+use phytomer_meshes::{Mesh, MeshOptions, OwnForms, Scene, Slots, Tag, Tolerance, Vertex};
 use phytomer_sim::Tick;
 use phytomer_sim::plant::{NodeId, OrganId, Plant};
 use std::collections::BTreeMap;
 use std::ops::Range;
+use std::sync::Arc;
 
 const NONE: u32 = u32::MAX;
+/// The number under which the flare of a trunk is kept.
+const FLARE: usize = 0;
 /// The place of what does not stand.
 const NOWHERE: [f32; 3] = [f32::NAN; 3];
 /// The most bearers that are passed on the way to one that stands.
@@ -59,7 +62,7 @@ pub struct KeyMaker {
     maker: Maker,
     options: MeshOptions,
     keyed: Keyed,
-    /// What is drawn by itself, by the number of its component.
+    /// What is drawn by itself: the flare of the trunk, and from 1 on what has the component number that is 1 less.
     known: Vec<u32>,
     /// The triangles that are kept, since most organs share them.
     shared: BTreeMap<Vec<[u32; 3]>, Range<usize>>,
@@ -78,7 +81,12 @@ pub struct Keyed {
     corners: Vec<[f32; 3]>,
     normals: Vec<[f32; 3]>,
     pub(crate) colours: Vec<[u8; 4]>,
+    /// Texture coordinates in the places of the colours, those of the last key; none where no picture covers anything.
+    pub(crate) textures: Vec<[f32; 2]>,
     pub(crate) faces: Vec<[u32; 3]>,
+    /// The materials, and what covers the parts of the species.
+    pub(crate) slots: Slots,
+    own: Arc<OwnForms>,
 }
 
 impl KeyMaker {
@@ -86,7 +94,7 @@ impl KeyMaker {
     pub fn new(tolerance: Tolerance, options: &MeshOptions, keys: usize) -> Self {
         let options = MeshOptions { tolerance: Some(tolerance), ..options.clone() };
         let maker = Maker::new(Nearness::of(tolerance.distance), &options);
-        let keyed = Keyed { shown: vec![None; keys], ..Keyed::default() };
+        let keyed = Keyed { shown: vec![None; keys], own: Arc::clone(&options.own), ..Keyed::default() };
         Self { maker, options, keyed, known: Vec::new(), shared: BTreeMap::new() }
     }
 
@@ -98,12 +106,25 @@ impl KeyMaker {
             *place = Some(shown);
         }
         let options = self.options.clone();
-        Scene::new(plant, age, &options).each_alone(&mut |vertices, faces| self.keep(key, vertices, faces));
+        if self.keyed.has_textures() {
+            // A plant keeps the numbers of what has fallen, so that the last one that is shown has all.
+            self.keyed.slots = Slots::of([(plant, &options, 0)]);
+        }
+        let scene = Scene::new(plant, age, &options);
+        if let Some(foot) = scene.stems().foot() {
+            let flare = scene.stems().flare_mesh(&foot);
+            let faces: Vec<[u32; 3]> = flare.faces.iter().map(phytomer_meshes::Face::indices).collect();
+            self.keep(FLARE, key, &flare.vertices, &faces);
+        }
+        scene.each_alone(&mut |vertices, faces| {
+            let number = vertices.first().and_then(|vertex| usize::try_from(vertex.tag().component).ok());
+            self.keep(number.map_or(FLARE, |number| number + 1), key, vertices, faces);
+        });
     }
 
-    fn keep(&mut self, key: usize, vertices: &[Vertex], faces: &[[u32; 3]]) {
+    /// Keeps what is drawn by itself under a number, by which it is known again.
+    fn keep(&mut self, number: usize, key: usize, vertices: &[Vertex], faces: &[[u32; 3]]) {
         let Some(tag) = vertices.first().map(Vertex::tag).filter(|_| !faces.is_empty()) else { return };
-        let number = usize::try_from(tag.component).unwrap_or_default();
         if self.known.len() <= number {
             self.known.resize(number + 1, NONE);
         }
@@ -123,6 +144,10 @@ impl KeyMaker {
         if let Some(alone) = keyed.alone.get_mut(self.known[number] as usize) {
             alone.corners.push(corner);
             alone.tag = tag;
+            if goes_on && keyed.own.has_textures() {
+                let coordinates = keyed.textures[alone.colours.clone()].iter_mut();
+                coordinates.zip(vertices).for_each(|(old, vertex)| *old = vertex.texture());
+            }
             // Leaves keep the green of their first key, wood and fruits take the colour of their last.
             if goes_on && class_of(&tag) != 1 {
                 let colours = vertices.iter().map(|vertex| vertex.tag().colour);
@@ -164,7 +189,7 @@ impl KeyMaker {
 
 impl Keyed {
     /// Closed meshes that stand still at all keys.
-    pub fn still(meshes: &[std::sync::Arc<Mesh>], keys: usize) -> Self {
+    pub fn still(meshes: &[Arc<Mesh>], keys: usize) -> Self {
         let mut keyed = Self { shown: vec![None; keys], ..Self::default() };
         for mesh in meshes {
             let Some(tag) = mesh.vertices.first().map(Vertex::tag) else { continue };
@@ -177,6 +202,16 @@ impl Keyed {
             keyed.alone.iter_mut().last().into_iter().for_each(|alone| alone.corners = vec![corner; keys]);
         }
         keyed
+    }
+
+    /// Whether pictures cover parts of the plant.
+    pub fn has_textures(&self) -> bool {
+        self.own.has_textures()
+    }
+
+    /// How many metres of bark the picture of an order is wide and long.
+    pub fn bark(&self, order: u8) -> Option<[f32; 2]> {
+        self.own.textures().bark(order)
     }
 
     /// The number of keys.
@@ -236,6 +271,9 @@ impl Keyed {
     fn begin(&mut self, key: usize, tag: Tag, vertices: &[Vertex], faces: Range<usize>) {
         let start = self.colours.len();
         self.colours.extend(vertices.iter().map(|vertex| vertex.tag().colour));
+        if self.has_textures() {
+            self.textures.extend(vertices.iter().map(Vertex::texture));
+        }
         let colours = start..self.colours.len();
         self.alone.push(Alone { tag, first: key, corners: Vec::new(), faces, colours });
     }

@@ -10,7 +10,8 @@ mod specimen;
 use super::{Body, Growth, KeyMaker, Keyed, write_growth, write_plant_instanced, write_still};
 use glam::{Quat, Vec3};
 use phytomer_meshes::{
-    Counts, Drawing, Face, Mesh, MeshOptions, PlantDrawing, Scene, Take, Tolerance, Vertex, mesh_plant,
+    Counts, Drawing, Face, Flare, Mesh, MeshOptions, OwnForms, PlantDrawing, Scene, Take, Textures, Tolerance, Vertex,
+    mesh_plant,
 };
 use phytomer_sim::Tick;
 use phytomer_sim::plant::Plant;
@@ -247,6 +248,48 @@ fn a_life_stands_at_its_keys_as_the_plant_does() {
     let weights = file.numbers(&animation["output"]).concat();
     assert!((0..25).all(|k| weights[k] == f64::from(u8::from(k / 5 == k % 5))));
     assert_eq!(file.json["meshes"][0]["weights"], serde_json::json!([0, 0, 0, 0, 1]), "at rest it is the last");
+}
+
+/// The flare of a trunk has the same vertices at all keys, and at each is as wide at the ground and ends as high as the
+/// species states; tables and wood do not change.
+#[test]
+fn a_flare_grows_with_its_trunk() {
+    let flare = Flare { width: 0.75, height: Some(4.0), lobes: 0, depth: 0.0 };
+    let own = Arc::new(OwnForms::default().with(Textures::default(), Some(flare)));
+    let options = MeshOptions { own, ..MeshOptions::default() };
+    let mut maker = KeyMaker::new(Tolerance::of(1e-4), &options, KEYS.len());
+    let mut plant = plant();
+    for (key, age) in KEYS.iter().enumerate() {
+        plant.nodes.diameter.fill(0.01 * *age as f32);
+        plant.nodes.diameter_tip.fill(0.01 * *age as f32);
+        maker.show(key, &plant, *age);
+    }
+    let bodies = vec![Body { name: "plant".to_owned(), place: [10.0, 20.0, 0.5], keyed: maker.finish() }];
+    let ages = KEYS.map(|age| age as f32).to_vec();
+    let (note, origin) = (String::new(), [0.0; 3]);
+    let growth = Growth { bodies, ages, seconds: 2.0, tolerance: 1e-4, note, origin };
+    let mut bytes = Vec::new();
+    let written = write_growth(&growth, &mut bytes).expect("written");
+    let file = File::read(&bytes);
+    let wood = &file.json["meshes"][0]["primitives"][0];
+    let numbers = file.numbers(&wood["attributes"]["_COMPONENT_ID"]).concat();
+    for (key, age) in KEYS.iter().enumerate().skip(1) {
+        let radius = 0.005 * f64::from(*age);
+        // Half of the trunk at most.
+        let high = (8.0 * radius).min(0.05 * f64::from(*age));
+        let at = places(&file, wood, key);
+        let out = |[x, y, _]: &[f64; 3]| (x * x + y * y).sqrt();
+        let widest = at.iter().map(out).fold(0.0, f64::max);
+        assert!((widest / (2.5 * radius) - 1.0).abs() < 0.01, "{widest} at {age}");
+        let flared = at.iter().filter(|at| out(at) > 1.02 * radius + written.step);
+        let top = flared.clone().map(|at| at[2]).fold(0.0, f64::max);
+        assert!(top <= high + written.step && top > 0.4 * high && flared.count() > 100, "{top} of {high} at {age}");
+    }
+    let first = f64::from(plant.nodes.component[0]);
+    assert!(
+        numbers.iter().filter(|number| **number == first).count() > 200,
+        "it has the number of the lowest internode"
+    );
 }
 
 /// What stands still is moved by no target and is not animated; a body without anything is a node without a mesh.

@@ -9,7 +9,7 @@
 use super::keys::Keyed;
 use glam::Vec3;
 use phytomer_life::{Line, between};
-use phytomer_meshes::{Tag, corners_of_area, sides_within};
+use phytomer_meshes::{Tag, bark_covers, corners_of_area, sides_within};
 use std::ops::Range;
 
 /// A ring: x, y, z of its middle and its radius, metres.
@@ -23,8 +23,11 @@ const NO_TAG: Tag = Tag { colour: [0, 0, 0, 255], birth: 0.0, death: f32::MAX, c
 pub struct Tube {
     /// The line among those of the life.
     pub line: usize,
-    /// Cosine and sine of each corner, times the reach of a polygon of the circle's area.
+    /// Cosine and sine of each corner, times the reach of a polygon of the circle's area; where the bark has a picture
+    /// the first corner is there twice, for the seam.
     polygon: Vec<[f32; 2]>,
+    /// The size of the picture of the bark.
+    bark: Option<[f32; 2]>,
     /// The keys at which it stands.
     pub keys: Range<usize>,
     /// The direction of the first corner of the first ring at each of these keys.
@@ -46,9 +49,13 @@ impl Tube {
         let last = (first..keyed.keys()).take_while(stands).last()?;
         let ages = (first..=last).filter_map(|key| keyed.age(key));
         let radii = ages.flat_map(|age| keyed.life.line_at(of, age).map(|(_, place)| place[3]));
-        let polygon = corners_of_area(sides_within(radii.fold(0.0, f32::max), tolerance));
+        let mut polygon = corners_of_area(sides_within(radii.fold(0.0, f32::max), tolerance));
+        let bark = keyed.bark(of.order);
+        if bark.is_some() {
+            polygon.extend(polygon.first().copied());
+        }
         let base = keyed.life.points[of.points.clone()].first().map_or(u32::MAX, |point| point.component);
-        let mut tube = Self { line, polygon, keys: first..last + 1, ups: Vec::new(), first: base };
+        let mut tube = Self { line, polygon, bark, keys: first..last + 1, ups: Vec::new(), first: base };
         let mut rings = Vec::new();
         let mut up = Vec3::Y;
         for key in (first..=last).rev() {
@@ -60,14 +67,47 @@ impl Tube {
         Some(tube)
     }
 
-    /// The number of sides of its rings.
-    pub fn sides(&self) -> usize {
+    /// The vertices of a ring.
+    fn corners(&self) -> usize {
         self.polygon.len()
+    }
+
+    /// The component that begins the line.
+    pub fn first(&self) -> u32 {
+        self.first
     }
 
     /// The number of its vertices.
     pub fn vertices(&self, keyed: &Keyed) -> usize {
-        self.sides() * self.line_of(keyed).points.len()
+        self.corners() * self.line_of(keyed).points.len()
+    }
+
+    /// The texture coordinates of its vertices, as the tube stands at its last key: whole repeats of the picture around
+    /// it, and along it its own length. Bark keeps its place on the wood while that grows.
+    pub fn textures(&self, keyed: &Keyed, rings: &mut Vec<Ring>) -> Vec<[f32; 2]> {
+        let Some(bark) = self.bark else { return vec![[0.0; 2]; self.vertices(keyed)] };
+        self.rings(keyed, self.keys.end - 1, rings);
+        let apart = |pair: &[Ring]| {
+            let way = [0, 1, 2].map(|k| f64::from(pair[1][k]) - f64::from(pair[0][k]));
+            way.iter().map(|x| x * x).sum::<f64>().sqrt()
+        };
+        // The mean circumference, each part by its surface, as of bark at one age.
+        let (mut surface, mut squares) = (0.0, 0.0);
+        for pair in rings.windows(2) {
+            let wide = f64::from(pair[0][3]) + f64::from(pair[1][3]);
+            surface += wide * apart(pair);
+            squares += wide * wide * apart(pair);
+        }
+        let mean = if surface > 0.0 { std::f64::consts::PI * squares / surface } else { 0.0 };
+        let [around, long] = bark_covers(bark, mean);
+        let (mut along, mut below, sides) = (0.0, None::<Ring>, (self.corners() - 1) as f32);
+        let mut all = Vec::with_capacity(self.vertices(keyed));
+        for ring in rings.iter() {
+            along += below.map_or(0.0, |below| apart(&[below, *ring]));
+            below = Some(*ring);
+            all.extend((0..self.corners()).map(|k| [around * k as f32 / sides, along as f32 / long]));
+        }
+        all
     }
 
     fn line_of<'k>(&self, keyed: &'k Keyed) -> &'k Line {
@@ -123,7 +163,7 @@ impl Tube {
     /// What a vertex has of the internode that begins at its ring.
     pub fn tag(&self, keyed: &Keyed, vertex: usize) -> Tag {
         let points = &keyed.life.points[self.line_of(keyed).points.clone()];
-        let Some(point) = points.get(vertex / self.sides()) else { return NO_TAG };
+        let Some(point) = points.get(vertex / self.corners()) else { return NO_TAG };
         let tints = keyed.life.tints_of_point(point).last().map_or([0.0; 3], |(_, colour)| *colour);
         let [red, green, blue] = tints.map(|channel| channel.round().clamp(0.0, 255.0) as u8);
         Tag {
@@ -138,15 +178,16 @@ impl Tube {
     /// Its triangles, by the indices of its own vertices.
     pub fn faces(&self, keyed: &Keyed, out: &mut Vec<[u32; 3]>) {
         out.clear();
-        let (n, rings) = (self.sides() as u32, self.line_of(keyed).points.len() as u32);
+        let (n, rings) = (self.corners() as u32, self.line_of(keyed).points.len() as u32);
+        let sides = n - u32::from(self.bark.is_some());
         for low in (0..rings.saturating_sub(1)).map(|ring| ring * n) {
-            for k in 0..n {
+            for k in 0..sides {
                 let [a, b] = [low + k, low + (k + 1) % n];
                 out.extend([[a, b, a + n], [b, b + n, a + n]]);
             }
         }
         let tip = rings.saturating_sub(1) * n;
-        out.extend((1..n - 1).map(|k| [tip, tip + k, tip + k + 1]));
+        out.extend((1..sides - 1).map(|k| [tip, tip + k, tip + k + 1]));
     }
 }
 

@@ -13,6 +13,8 @@ use phytomer_sim::plant::{Kind, NodeId, OrganId, Plant};
 use phytomer_sim::pose::{OrganInputs, organ_follows_from};
 
 const NONE: u32 = u32::MAX;
+/// The place of the form of a flare among those of internodes.
+const FLARE: usize = usize::MAX;
 
 /// The parts of a plant, up to the last age that was shown.
 #[derive(Debug, Clone, Default)]
@@ -29,6 +31,8 @@ pub struct Parts {
     surfaces: Vec<(usize, Surface)>,
     /// The forms of internodes that were met, with their places.
     stems: Vec<(usize, Model)>,
+    /// The place of the flare of the trunk, which has the number of an internode that may be a part too.
+    foot: Option<u32>,
     poses: Kept<12>,
     tints: Kept<3>,
 }
@@ -86,7 +90,30 @@ impl Parts {
             }
         }
         apart.iter().for_each(|node| self.show_internode(scene.stems(), *node, age, nearness));
+        self.show_foot(scene.stems(), age, nearness);
         self.end_unseen(age);
+    }
+
+    /// Takes the flare of the trunk, as a part that narrows as internodes do.
+    fn show_foot(&mut self, stems: &Stems, age: f32, nearness: Nearness) {
+        let Some(foot) = stems.foot() else { return };
+        let (frustum, colour, plant) = (foot.frustum, stems.colour(foot.node), stems.plant());
+        let size = [frustum.length, 2.0 * frustum.radii[0], 2.0 * frustum.radii[1]];
+        let pose = pose(frustum.base, frustum.heading, frustum.up, size);
+        let shown = Shown { pose, tint: colour.map(f32::from), from: None };
+        let component = plant.nodes.component[foot.node.index()];
+        let known = self.foot.filter(|place| self.states.get(*place).is_some_and(|state| state.component == component));
+        if let Some(known) = known {
+            return self.take(known, &shown, age, nearness);
+        }
+        self.stems.push((FLARE, stems.flare_model(foot.node)));
+        let (stem, birth) = (self.stems.len() as u32 - 1, plant.nodes.birth[foot.node.index()] as f32);
+        let axis = axis_of(plant, foot.node);
+        let part = Part { axis, stem, stalk: colour, ..begun(component, plant.kind_of(foot.node), birth, age) };
+        let internode = self.of_component.get(component as usize).copied().unwrap_or(NONE);
+        self.begin(part, &shown);
+        // The number of the component names the internode, where that is a part.
+        self.foot = Some(std::mem::replace(&mut self.of_component[component as usize], internode));
     }
 
     fn show_internode(&mut self, stems: &Stems, node: NodeId, age: f32, nearness: Nearness) {

@@ -7,8 +7,8 @@
 mod specimen;
 
 use super::{Life, Maker, Nearness, What};
-use phytomer_looks::{Paints, Surface};
-use phytomer_meshes::{MeshOptions, Scene};
+use phytomer_looks::{Flare, Paints, Surface};
+use phytomer_meshes::{MeshOptions, OwnForms, Scene, Textures};
 use phytomer_sim::Tick;
 use phytomer_sim::plant::{Habit, OrganId, Plant};
 use specimen::{TALL, plant};
@@ -156,4 +156,30 @@ fn an_organ_whose_outline_changes_is_drawn_as_it_is_at_each_age() {
     let expected = [(component, 2.0, 4.0, What::Outlined(0)), (component, 4.0, f32::INFINITY, What::Outlined(1))];
     assert_eq!(told, expected);
     assert_eq!(life.outlines.iter().map(|corners| corners[1][0]).collect::<Vec<_>>(), [0.1, 0.2]);
+}
+
+/// The flare of a trunk is a part that narrows from the ground to where it ends, half of the trunk at most; the trunk
+/// stays the line that it is.
+#[test]
+fn a_flare_is_a_part_of_the_lowest_internode() {
+    let flare = Flare { width: 0.5, height: Some(8.0), lobes: 4, depth: 0.5 };
+    let own = Arc::new(OwnForms::default().with(Textures::default(), Some(flare)));
+    let plant = plant();
+    let shown = |options: &MeshOptions| {
+        let mut maker = Maker::new(Nearness::of(1e-3), options);
+        (0..=TALL).for_each(|age| maker.show(&plant, age));
+        maker.finish()
+    };
+    let (with, without) = (shown(&MeshOptions { own, ..MeshOptions::default() }), shown(&MeshOptions::default()));
+    assert_eq!((&with.lines, &with.points), (&without.lines, &without.points));
+    assert_eq!(with.parts.len(), without.parts.len() + 1);
+    let part = with.parts.iter().find(|part| part.what == What::Internode).expect("the flare");
+    assert_eq!((part.component, part.birth), (plant.nodes.component[0], 1.0));
+    for age in 1..=TALL {
+        let [length, width, _] = with.pose_at(part, age as f32).size;
+        // Internodes of 0.1 m are 0.01 m thick, so that the flare is 0.08 m high, but for half of a trunk of one.
+        let high = 0.08_f32.min(0.05 * age as f32);
+        assert!((length - high).abs() < 1e-3 && (width - 0.01).abs() < 1e-3, "{length} {width} at {age}");
+    }
+    assert!(with.stems.iter().any(|model| model.mesh.vertices.len() > 400));
 }

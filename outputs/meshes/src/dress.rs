@@ -28,7 +28,7 @@ pub struct Bark {
 
 /// How often a texture of a width and a length goes around a stem of a mean circumference, and the length that it
 /// covers along it, metres.
-pub fn covered([wide, long]: [f32; 2], around: f64) -> [f32; 2] {
+pub fn bark_covers([wide, long]: [f32; 2], around: f64) -> [f32; 2] {
     let times = around / f64::from(wide);
     if times >= 1.0 {
         return [times.round() as f32, long];
@@ -63,7 +63,7 @@ impl Bark {
         }
         let covers = axes.iter().zip(&plant.axes.order).map(|([_, surface, squares], order)| {
             let mean = if *surface > 0.0 { std::f64::consts::PI * squares / surface } else { 0.0 };
-            sizes[usize::from(*order)].map(|size| covered(size, mean))
+            sizes[usize::from(*order)].map(|size| bark_covers(size, mean))
         });
         Some(Self { covers: covers.collect(), along, sizes })
     }

@@ -22,6 +22,7 @@ mod drawing;
 mod drawn_organ;
 mod dress;
 mod file;
+mod foot;
 mod forms;
 mod lamina;
 #[cfg(test)]
@@ -71,7 +72,9 @@ pub use columns::{Columns, UNTIL};
 pub use detail::{Afar, Primitive, Seen};
 pub use drawing::{Drawing, PlantDrawing, Take};
 pub use drawn_organ::DrawnOrgan;
+pub use dress::bark_covers;
 pub use file::{MeshError, MeshFile, write_mesh};
+pub use foot::Foot;
 pub use forms::own::{MeshFault, OwnForms, check as check_form};
 pub use forms::{Depth, FormMesh, Point as FormPoint};
 pub use model::Model;
@@ -95,6 +98,7 @@ pub use texture::{MOST_PICTURE_BYTES, MOST_PIXELS, Picture, PictureFault, Textur
 pub use thinned::{ClassSums, MOST_LARGER, Thinned, organ_number};
 pub use tube::Frustum;
 
+pub use phytomer_looks::Flare;
 use phytomer_looks::place_of_own;
 use phytomer_sim::clock::Tick;
 use phytomer_sim::gusts::Swing;

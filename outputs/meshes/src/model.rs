@@ -86,7 +86,7 @@ impl Model {
     fn of_stem(stem: &Drawn, colour: [u8; 3]) -> Self {
         let Frame { base, heading, up } = FRAME;
         let unit = Frustum { base, heading, up, length: 1.0, radii: [0.5; 2] };
-        let narrowing = |mesh| Self { mesh, sized: Sized::Narrowing, in_parts: false };
+        let narrowing = Self::narrowing;
         let tag = tag(colour);
         match stem {
             Drawn::Tube(tube, _) => narrowing(of_tube(tube, &unit, &tag)),
@@ -100,6 +100,11 @@ impl Model {
             Drawn::Turned(_) => narrowing(of_tube(&Tube::new(8), &unit, &tag)),
             Drawn::Near(each, _) => Self::of_stem(&each[0], colour),
         }
+    }
+
+    /// A body whose width goes from base to tip.
+    pub(super) fn narrowing(mesh: Mesh) -> Self {
+        Self { mesh, sized: Sized::Narrowing, in_parts: false }
     }
 
     /// The factors along its axes for the sizes of a component, as a life has them, and its fullness.

@@ -32,6 +32,8 @@ pub struct Body<'a> {
     pub places: Vec<Vec3>,
     /// The meshes of its blocks, where they are kept; else empty, and blocks are made when they are used.
     kept: Vec<Arc<Mesh>>,
+    /// The numbers of components that are not drawn, in their order.
+    left_out: Arc<[u32]>,
 }
 
 impl<'a> Body<'a> {
@@ -57,15 +59,24 @@ impl<'a> Body<'a> {
         let (kept, blocks) = (kept.collect(), scene.blocks());
         let stuff = stuff(scene.plant(), scene.options().detail);
         let detail = scene.options().detail;
-        Self { scene: Some(scene), colours, boxes: Vec::new(), stuff, detail, places, kept }.boxed(blocks)
+        let left_out = Arc::default();
+        Self { scene: Some(scene), colours, boxes: Vec::new(), stuff, detail, places, kept, left_out }.boxed(blocks)
+    }
+
+    /// The same plant without some components, by their numbers in their order.
+    pub fn without(mut self, left_out: Arc<[u32]>) -> Self {
+        if !left_out.is_empty() {
+            self.kept.iter_mut().for_each(|mesh| leave_out(&left_out, Arc::make_mut(mesh)));
+        }
+        Self { left_out, ..self }
     }
 
     /// An obstacle: a closed mesh in the coordinates of its stand.
     pub fn obstacle(mesh: &Arc<Mesh>) -> Self {
         let (kept, stuff) =
             (vec![Arc::clone(mesh)], [Stuff { thin: false, closed: true, even: false, pale: 0 }; Kind::ALL.len()]);
-        Self { scene: None, colours: None, boxes: Vec::new(), stuff, detail: 0, places: vec![Vec3::ZERO], kept }
-            .boxed(1)
+        let (places, left_out) = (vec![Vec3::ZERO], Arc::default());
+        Self { scene: None, colours: None, boxes: Vec::new(), stuff, detail: 0, places, kept, left_out }.boxed(1)
     }
 
     /// With the bounding boxes of its blocks.
@@ -100,7 +111,8 @@ impl<'a> Body<'a> {
         let near = Scene::new(scene.plant(), scene.age(), &options);
         let left = room.checked_sub(near.counts().vertices);
         *room = left.unwrap_or(*room);
-        Some(Self::of(near, None, self.places.clone(), left.is_some() || self.places.len() > 1))
+        let near = Self::of(near, None, self.places.clone(), left.is_some() || self.places.len() > 1);
+        Some(near.without(Arc::clone(&self.left_out)))
     }
 
     /// Whether single organs fill so much of the picture that light must not change from cell to cell on them: a plant
@@ -120,6 +132,9 @@ impl<'a> Body<'a> {
         }
         if let Some(scene) = &self.scene {
             scene.block(block, mesh);
+            if !self.left_out.is_empty() {
+                leave_out(&self.left_out, mesh);
+            }
         }
         mesh
     }
@@ -179,6 +194,13 @@ impl<'a> Body<'a> {
         };
         Paint { colour, thin, stained: self.colours.is_some(), subject }
     }
+}
+
+/// Takes the triangles of some components out of a mesh.
+fn leave_out(components: &[u32], mesh: &mut Mesh) {
+    let Mesh { vertices, faces } = mesh;
+    let number = |first: u32| vertices.get(first as usize).map_or(u32::MAX, |vertex| vertex.tag().component as u32);
+    faces.retain(|face| components.binary_search(&number(face.indices()[0])).is_err());
 }
 
 /// The box around some points.

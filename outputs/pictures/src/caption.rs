@@ -6,8 +6,31 @@
 use super::canvas::Canvas;
 use super::letters::{width, written};
 
-/// The colour of text.
+/// The colour of text, and on dark ground.
 pub const INK: [u8; 3] = [70, 66, 60];
+const LIGHT: [u8; 3] = [242, 240, 234];
+
+/// The luminance, as a share of white's, below which ground is dark: there dark text has a contrast of less than 2.4,
+/// and light text one of more than 3.6 (WCAG 2, relative luminance).
+const DARK: f64 = 0.2;
+
+/// The colour of text in a box, from its left and upper corner to the other.
+fn ink(canvas: &Canvas, [left, top, right, bottom]: [f32; 4]) -> [u8; 3] {
+    let pixels = |from: f32, to: f32, all: u32| (from.max(0.0) as u32).min(all)..(to.max(0.0).ceil() as u32).min(all);
+    let columns = pixels(left, right, canvas.width);
+    let (mut sum, mut count) = (0.0, 0_u32);
+    for row in pixels(top, bottom, canvas.height) {
+        for column in columns.clone() {
+            let [red, green, blue, alpha] = canvas.at(column, row);
+            let [red, green, blue] = [red, green, blue].map(phytomer_meshes::linear);
+            // What is clear is seen on light paper.
+            let clear = 1.0 - f64::from(alpha) / 255.0;
+            sum += clear + (1.0 - clear) * (0.2126 * red + 0.7152 * green + 0.0722 * blue);
+            count += 1;
+        }
+    }
+    if count > 0 && sum < DARK * f64::from(count) { LIGHT } else { INK }
+}
 
 /// The height of a capital, pixels, for a picture of this height.
 pub fn letter_size(height: u32) -> f32 {
@@ -34,7 +57,8 @@ pub fn write(canvas: &mut Canvas, text: &str, size: f32, [x, line]: [f32; 2], al
         Align::Right => x - wide,
     };
     let (strokes, _) = written(text, size, [left, line]);
-    canvas.strokes(&strokes, (0.062 * size).max(0.55), INK);
+    let ink = ink(canvas, [left, line - size, left + wide, line]);
+    canvas.strokes(&strokes, (0.062 * size).max(0.55), ink);
 }
 
 /// The length of a scale bar, metres, for a scale in pixels per metre: the longest that fits into `room` pixels.
@@ -75,9 +99,10 @@ pub fn scale_bar(canvas: &mut Canvas, scale: f32, room: f32, size: f32, [left, l
     let thick = (0.16 * size).max(1.0);
     let right = left + length * scale;
     let tick = 0.45 * size;
-    canvas.rectangle([left, line - thick, right, line], INK);
-    canvas.rectangle([left, line - tick, left + thick, line], INK);
-    canvas.rectangle([right - thick, line - tick, right, line], INK);
+    let ink = ink(canvas, [left, line - tick, right, line]);
+    canvas.rectangle([left, line - thick, right, line], ink);
+    canvas.rectangle([left, line - tick, left + thick, line], ink);
+    canvas.rectangle([right - thick, line - tick, right, line], ink);
     write(canvas, &length_in_words(length), size, [0.5 * (left + right), line - 0.75 * size], Align::Middle);
 }
 
@@ -113,5 +138,30 @@ pub fn write_row(canvas: &mut Canvas, labels: &[(f32, &str)], size: f32, line: f
         let Some(row) = (0..2).find(|row| ends[*row] + size <= x - half) else { continue };
         ends[row] = x + half;
         write(canvas, label, size, [x, line - 1.7 * size * row as f32], Align::Middle);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A line on ground of a grey: the darkest and the lightest of its pixels.
+    fn greys(ground: u8) -> [u8; 2] {
+        let mut canvas = Canvas::new(120, 30);
+        canvas.pixels.fill([ground, ground, ground, 255]);
+        write(&mut canvas, "Rosa canina L.", 14.0, [60.0, 22.0], Align::Middle);
+        let greens = canvas.pixels.iter().map(|pixel| pixel[1]);
+        greens.fold([255, 0], |[low, high], green| [low.min(green), high.max(green)])
+    }
+
+    #[test]
+    fn words_are_light_on_dark_ground_and_dark_on_light_ground() {
+        assert_eq!(greys(230), [INK[1], 230]);
+        assert_eq!(greys(140), [INK[1], 140]);
+        assert_eq!(greys(50), [50, LIGHT[1]]);
+        // Clear ground is taken for light paper.
+        let mut canvas = Canvas::new(120, 30);
+        write(&mut canvas, "Rosa", 14.0, [60.0, 22.0], Align::Middle);
+        assert!(canvas.pixels.iter().any(|pixel| pixel[..3] == INK && pixel[3] == 255));
     }
 }

@@ -196,7 +196,10 @@ fn bodies<'a>(stand: &'a Stand, picture: &Picture, colours: Vec<Option<Vec<[u8; 
         options.sides = picture.sides.unwrap_or(options.sides);
         // The camera is placed by the few polygons of detail 0: which detail an organ has follows from it.
         options.detail = if is_full(picture) { picture.detail } else { 0 };
-        bodies.push(Body::new((placed.plant, placed.age), (&options, picture.detail), colours, places));
+        let body = Body::new((placed.plant, placed.age), (&options, picture.detail), colours, places);
+        // The organ in focus is one of the first plant.
+        let left_out = picture.focus.as_ref().filter(|_| bodies.is_empty()).map(|focus| focus.left_out());
+        bodies.push(body.without(left_out.unwrap_or_default()));
     }
     bodies
 }

@@ -5,13 +5,16 @@
 //! kind, which have expanded, one is taken that is freely seen. Absent: what else of the plant is seen around it, which
 //! stays.
 
+use super::View;
+use super::free::{self, Freest};
 use super::gaze::Gaze;
-use super::{View, free};
 use glam::Vec3;
 use phytomer_meshes::{MeshOptions, Scene, Vertex};
 use phytomer_sim::Tick;
 use phytomer_sim::math::{asinf, atan2f};
 use phytomer_sim::plant::{Class, Kind, NodeId, OrganId, Plant};
+use std::collections::BTreeMap;
+use std::sync::Arc;
 
 /// The least size of an organ that is taken because it is freely seen, as a share of the largest.
 const NEARLY: f32 = 0.8;
@@ -33,6 +36,9 @@ pub struct Focus {
     points: Vec<[f32; 3]>,
     /// The unit direction from which it is seen.
     from: [f32; 3],
+    /// The numbers of the components that would hide it, where nothing but a part of it is seen from any side; they are
+    /// not drawn.
+    left_out: Arc<[u32]>,
 }
 
 impl Focus {
@@ -48,32 +54,34 @@ impl Focus {
             }
         };
         let before: Vec<(OrganId, Vec3)> = organs.into_iter().map(|organ| (organ, before(&scene, organ))).collect();
-        if let Some((organ, from)) = free::freest(&scene, &before) {
+        if let Some(Freest { organ, from, hiding }) = free::freest(&scene, &before) {
             let points = scene.mesh_of(organ).vertices.iter().map(Vertex::position).collect();
-            return Some(Self { points, from: from.to_array() });
+            return Some(Self { points, from: from.to_array(), left_out: hiding.into() });
         }
-        let nodes = (0..plant.nodes.len()).map(|node| NodeId(node as u32)).filter(|node| plant.stands(*node, age));
-        let parts: Vec<NodeId> = nodes.filter(|node| is_of(plant, *node, wanted)).collect();
-        (!parts.is_empty()).then(|| Self::internodes(plant, &parts))
+        match wanted {
+            Wanted::Largest(Class::Flower) => {
+                let flowers = flowers(plant, age);
+                // Of equal ones the first.
+                let largest = flowers.iter().reduce(|one, other| if other.size() > one.size() { other } else { one });
+                largest.map(Flower::focus)
+            }
+            Wanted::Largest(_) => None,
+            Wanted::Component(number) => {
+                let nodes = (0..plant.nodes.len()).map(|node| NodeId(node as u32));
+                let is_wanted = |node: &NodeId| plant.nodes.component[node.index()] == number;
+                let node = nodes.filter(|node| plant.stands(*node, age)).find(is_wanted)?;
+                let heading = Vec3::from_array(plant.frames.heading[node.index()]);
+                Some(Flower { heading, points: ends(plant, node).to_vec() }.focus())
+            }
+        }
     }
 
-    /// The length times the width of the largest organ of a class that stands, square metres.
+    /// The length times the width of the largest organ of a class that stands, square metres; where there are no
+    /// flowers, those of the largest flower that is made of internodes.
     pub fn size_of_largest(plant: &Plant, age: Tick, class: Class) -> Option<f32> {
-        of_class(plant, age, class).into_iter().map(|(_, size)| size).reduce(f32::max)
-    }
-
-    /// Internodes that make up a flower, as a dog rose's, seen from before and above it.
-    fn internodes(plant: &Plant, parts: &[NodeId]) -> Self {
-        let end = |node: NodeId| {
-            let at = |of: [f32; 3]| Vec3::from_array(of);
-            let (base, heading) = (at(plant.frames.base[node.index()]), at(plant.frames.heading[node.index()]));
-            let length = plant.nodes.length[node.index()];
-            let wide = 0.5 * plant.nodes.diameter[node.index()];
-            [base - Vec3::splat(wide), base + heading * length + Vec3::splat(wide)].map(|place| place.to_array())
-        };
-        let first = Vec3::from_array(plant.frames.heading[parts[0].index()]);
-        let from = (first * 0.4 + Vec3::new(0.15, -0.5, 0.75)).normalize_or(Vec3::NEG_Y);
-        Self { points: parts.iter().flat_map(|node| end(*node)).collect(), from: from.to_array() }
+        let largest = of_class(plant, age, class).into_iter().map(|(_, size)| size).reduce(f32::max);
+        let of_parts = || flowers(plant, age).iter().map(Flower::size).reduce(f32::max);
+        if class == Class::Flower { largest.or_else(of_parts) } else { largest }
     }
 
     /// The gaze towards it, turned to the left by an angle.
@@ -100,11 +108,18 @@ impl Focus {
         0.5 * (low + high)
     }
 
-    /// The box around it, and around as much of what stands beside it as may be seen.
+    /// The numbers of the components that are not drawn, in their order.
+    pub(super) fn left_out(&self) -> Arc<[u32]> {
+        Arc::clone(&self.left_out)
+    }
+
+    /// The box around it, and around as much of what stands beside it as may be seen; of what stands around an organ
+    /// that is freed for the picture little throws a shadow on it.
     pub(super) fn bounds(&self) -> [Vec3; 2] {
         let around = |[low, high]: [Vec3; 2], point: Vec3| [low.min(point), high.max(point)];
         let [low, high] = self.points().fold([Vec3::INFINITY, Vec3::NEG_INFINITY], around);
-        let beside = Vec3::splat(0.6 * (high - low).length());
+        let share = if self.left_out.is_empty() { 0.6 } else { 0.1 };
+        let beside = Vec3::splat(share * (high - low).length());
         [low - beside, high + beside]
     }
 }
@@ -124,16 +139,64 @@ fn before(scene: &Scene, organ: OrganId) -> Vec3 {
     from.normalize_or(Vec3::NEG_Y)
 }
 
-/// Whether an internode is what is wanted, or a part of it.
-fn is_of(plant: &Plant, node: NodeId, wanted: Wanted) -> bool {
-    use Kind::{PetalInternode, SepalInternode, StamenInternode, StigmaInternode};
-    match wanted {
-        Wanted::Component(number) => plant.nodes.component[node.index()] == number,
-        Wanted::Largest(Class::Flower) => {
-            matches!(plant.kind_of(node), PetalInternode | SepalInternode | StamenInternode | StigmaInternode)
-        }
-        Wanted::Largest(_) => false,
+/// A flower that is made of internodes, as a dog rose's, by the places of its petals, sepals, stamens and styles.
+struct Flower {
+    /// The direction of what bears them.
+    heading: Vec3,
+    points: Vec<Vec3>,
+}
+
+impl Flower {
+    /// The product of the two longest sides of the box around it, square metres.
+    fn size(&self) -> f32 {
+        let around = |[low, high]: [Vec3; 2], point: &Vec3| [low.min(*point), high.max(*point)];
+        let [low, high] = self.points.iter().fold([Vec3::INFINITY, Vec3::NEG_INFINITY], around);
+        let mut sides = (high - low).max(Vec3::ZERO).to_array();
+        sides.sort_by(f32::total_cmp);
+        sides[1] * sides[2]
     }
+
+    /// The flower as it fills a picture: seen from before and above, so that its middle and its parts are seen.
+    fn focus(&self) -> Focus {
+        let from = (0.8 * self.heading + Vec3::new(0.15, -0.55, 0.1)).normalize_or(Vec3::NEG_Y);
+        let points = self.points.iter().map(Vec3::to_array).collect();
+        Focus { points, from: from.to_array(), left_out: Arc::default() }
+    }
+}
+
+/// The flowers of a plant that are made of internodes: the parts of a flower that one receptacle bears, or one stem.
+fn flowers(plant: &Plant, age: Tick) -> Vec<Flower> {
+    use Kind::{PetalInternode, ReceptacleInternode, SepalInternode, StamenInternode, StigmaInternode};
+    let is_part = |node: NodeId| {
+        matches!(plant.kind_of(node), PetalInternode | SepalInternode | StamenInternode | StigmaInternode)
+    };
+    // The lowest internode of the flower of each node; a bearer comes before what it bears.
+    let mut lowest = vec![NodeId::NONE; plant.nodes.len()];
+    let mut flowers: BTreeMap<NodeId, Flower> = BTreeMap::new();
+    for node in (0..plant.nodes.len()).map(|node| NodeId(node as u32)) {
+        if !(is_part(node) || plant.kind_of(node) == ReceptacleInternode) {
+            continue;
+        }
+        let parent = plant.nodes.parent[node.index()].some();
+        lowest[node.index()] = parent.map(|parent| lowest[parent.index()]).and_then(NodeId::some).unwrap_or(node);
+        if !is_part(node) || !plant.stands(node, age) {
+            continue;
+        }
+        let bearer = parent.filter(|parent| !is_part(*parent)).unwrap_or(node);
+        let heading = Vec3::from_array(plant.frames.heading[bearer.index()]);
+        let flower = flowers.entry(lowest[node.index()]);
+        flower.or_insert(Flower { heading, points: Vec::new() }).points.extend(ends(plant, node));
+    }
+    flowers.into_values().collect()
+}
+
+/// The corners of an internode as a blade.
+fn ends(plant: &Plant, node: NodeId) -> [Vec3; 4] {
+    let frame = plant.frames.at(node);
+    let [base, heading, up] = [frame.base, frame.heading, frame.up].map(Vec3::from_array);
+    let aside = 0.5 * plant.nodes.diameter[node.index()] * heading.cross(up);
+    let tip = base + plant.posed_length(node) * heading;
+    [base - aside, base + aside, tip - aside, tip + aside]
 }
 
 /// The largest organs of a class that stand, and those nearly as large, the largest first; of equal ones the first.

@@ -9,7 +9,9 @@ use glam::Vec3;
 use phytomer_meshes::{Mesh, MeshOptions, Scene};
 use phytomer_sim::plant::OrganId;
 use rayon::prelude::*;
+use std::collections::BTreeSet;
 use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
+use std::sync::{Mutex, PoisonError};
 
 /// The points of an organ from which lines go to the eye, at most the bits of a word.
 const POINTS: usize = 48;
@@ -38,28 +40,62 @@ struct Sight {
     hidden: AtomicU64,
 }
 
+/// The share of the points of an organ of which, where fewer are seen from any side, what hides them is left out.
+const HIDDEN: f32 = 0.7;
+
+/// An organ that is seen as freely as there is one.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Freest {
+    /// The organ.
+    pub organ: OrganId,
+    /// The direction from which it is seen.
+    pub from: Vec3,
+    /// The numbers of the components that hide it, in their order; none where most of it is seen.
+    pub hiding: Vec<u32>,
+}
+
 /// The first of some organs, the most wanted first, that is seen freely from its own direction or from one near it, and
-/// that direction; else the one that is seen best.
-pub fn freest(scene: &Scene, organs: &[(OrganId, Vec3)]) -> Option<(OrganId, Vec3)> {
+/// that direction; else the one that is seen best. Where that is still hidden for a large part, as a bunch between the
+/// stalks of a palm's leaves, it is seen from its own direction, and what hides it is told.
+pub fn freest(scene: &Scene, organs: &[(OrganId, Vec3)]) -> Option<Freest> {
     let sights: Vec<Sight> =
         organs.iter().enumerate().flat_map(|(place, organ)| sights(scene, place, *organ)).collect();
     // The parts that may hide an organ are drawn at detail 1 at most: few polygons, but leaves have their stalks.
     let detail = scene.options().detail.min(1);
     let plain = Scene::new(scene.plant(), scene.age(), &MeshOptions { detail, ..scene.options().clone() });
-    (0..plain.blocks()).into_par_iter().for_each_init(Mesh::default, |mesh, block| {
-        plain.block(block, mesh);
-        for face in &mesh.faces {
-            let vertices = face.indices().map(|index| &mesh.vertices[index as usize]);
-            let component = vertices[0].tag().component;
-            let corners = vertices.map(|vertex| Vec3::from_array(vertex.position()));
-            sights.iter().filter(|sight| sight.component != component).for_each(|sight| sight.hide(&corners));
-        }
+    each_face(&plain, &|component, corners| {
+        sights.iter().filter(|sight| sight.component != component).for_each(|sight| _ = sight.hide(corners));
     });
     let seen: Vec<f32> = sights.iter().map(Sight::seen).collect();
     let first = seen.iter().position(|seen| *seen >= ENOUGH);
     // Of equal ones the first.
     let best = (0..seen.len()).reduce(|a, b| if seen[b] > seen[a] { b } else { a });
-    first.or(best).map(|found| (organs[sights[found].organ].0, sights[found].from))
+    let mut found = first.or(best)?;
+    let mut hiding = Vec::new();
+    if seen[found] < HIDDEN {
+        let organ = sights[found].organ;
+        found = sights.iter().position(|sight| sight.organ == organ).unwrap_or(found);
+        let sight = &sights[found];
+        let before = Mutex::new(BTreeSet::new());
+        each_face(&plain, &|component, corners| {
+            if sight.component != component && sight.hide(corners) {
+                before.lock().unwrap_or_else(PoisonError::into_inner).insert(component.unsigned_abs());
+            }
+        });
+        hiding = before.into_inner().unwrap_or_else(PoisonError::into_inner).into_iter().collect();
+    }
+    Some(Freest { organ: organs[sights[found].organ].0, from: sights[found].from, hiding })
+}
+
+/// Calls a function with every triangle of a scene and the number of its component, on all threads.
+fn each_face(scene: &Scene, take: &(dyn Fn(i32, &[Vec3; 3]) + Sync)) {
+    (0..scene.blocks()).into_par_iter().for_each_init(Mesh::default, |mesh, block| {
+        scene.block(block, mesh);
+        for face in &mesh.faces {
+            let vertices = face.indices().map(|index| &mesh.vertices[index as usize]);
+            take(vertices[0].tag().component, &vertices.map(|vertex| Vec3::from_array(vertex.position())));
+        }
+    });
 }
 
 /// An organ from its own direction, and from others near it.
@@ -95,20 +131,23 @@ fn turned(vector: Vec3, axis: Vec3, degrees: f32) -> Vec3 {
 }
 
 impl Sight {
-    /// Hides the points whose lines to the eye meet a triangle.
-    fn hide(&self, corners: &[Vec3; 3]) {
+    /// Hides the points whose lines to the eye meet a triangle; whether there are any.
+    fn hide(&self, corners: &[Vec3; 3]) -> bool {
         let away = (corners[0] - self.middle).dot(self.from);
         let across = (corners[0] - self.middle - away * self.from).length();
         let size = (corners[1] - corners[0]).length().max((corners[2] - corners[0]).length());
         // All lines lie in the cylinder around the organ.
         if across - size > self.half || away + size < -self.half || away - size > DISTANCE * self.half {
-            return;
+            return false;
         }
+        let mut hides = false;
         for (bit, point) in self.points.iter().enumerate() {
             if meets(*point, self.eye - *point, corners) {
                 self.hidden.fetch_or(1 << bit, Relaxed);
+                hides = true;
             }
         }
+        hides
     }
 
     /// The share of its points that are seen.

@@ -30,6 +30,13 @@ const LOOKS: u32 = 5;
 /// The samples along the longest side of an outline: at most a pixel of a picture of a plant at which levels change.
 const SAMPLES: u32 = 480;
 
+/// A plant of more triangles is tried on every so many rows of these, within a little less, and what is found is looked
+/// at on all of them: of the rows of a crown each has a difference of its own, so that the mean of a few is near that
+/// of all. Where that does not hold, it is sought on all rows.
+const LARGE: u64 = 400_000;
+const ROWS_APART: u32 = 6;
+const MOST_APART_IN_ROWS: f64 = 0.0225;
+
 /// The steps of an octave of tolerances, and the step of the largest.
 const STEPS: u32 = 32;
 const LAST: u32 = 24 * STEPS;
@@ -89,7 +96,7 @@ pub fn levels(plant: &Plant, age: Tick, first: &MeshOptions, most: &[Option<u64>
     let mut found = vec![search.first()];
     for (level, most) in (1..).zip(most) {
         let before = &found[level - 1];
-        let coarser = search.coarser(before, most.unwrap_or((before.faces as f64 * AIM) as u64));
+        let coarser = search.checked(before, *most);
         match (coarser, most) {
             (Found::Fits(tried), _) => found.push(tried),
             (Found::Least(tried), Some(most)) => return Err(TooCoarse { level, most: *most, least: tried.faces }),
@@ -135,6 +142,10 @@ struct Search<'p> {
     age: Tick,
     options: &'p MeshOptions,
     outline: Option<(Sides, Outline)>,
+    /// All rows and what the first level covers of them, where outlines are tried on some of them.
+    all_rows: Option<(Sides, Outline)>,
+    /// The largest difference on the rows that are tried.
+    bound: f64,
     faces: u64,
     /// The distance of each step, metres.
     distances: Vec<f32>,
@@ -169,13 +180,34 @@ impl<'p> Search<'p> {
         };
         let sides = Sides::around(&scene, &costs, SAMPLES);
         let farthest = sides.as_ref().map_or(0.0, Sides::longest) * OF_LONGEST;
-        let outline = sides.map(|sides| (sides.clone(), sides.of(&sides.of_wood(&scene), &scene, &costs)));
+        let faces = scene.counts().faces;
+        let with_outline = |sides: Sides| {
+            let outline = sides.of(&sides.of_wood(&scene), &scene, &costs);
+            (sides, outline)
+        };
+        let is_large = faces > LARGE;
+        let some_rows = sides.as_ref().filter(|_| is_large).map(|sides| with_outline(sides.sparser(ROWS_APART)));
+        let all = sides.map(with_outline);
+        let (outline, all_rows) = if some_rows.is_some() { (some_rows, all) } else { (all, None) };
         let last = distances.partition_point(|distance| *distance < farthest).clamp(1, LAST as usize) as u32;
         let octaves = options.tolerance.map_or(0.0, |own| log2(f64::from(own.distance / Tolerance::LEAST)));
         let step = (octaves * f64::from(STEPS)).clamp(0.0, f64::from(last)) as u32;
-        let faces = scene.counts().faces;
-        let (wood_faces, looked, organs) = (BTreeMap::new(), None, None);
-        Self { plant, age, options, outline, faces, distances, step, last, costs, wood_faces, looked, organs }
+        Self {
+            plant,
+            age,
+            options,
+            outline,
+            all_rows,
+            bound: if is_large { MOST_APART_IN_ROWS } else { MOST_APART },
+            faces,
+            distances,
+            step,
+            last,
+            costs,
+            wood_faces: BTreeMap::new(),
+            looked: None,
+            organs: None,
+        }
     }
 
     fn first(&self) -> Tried {
@@ -229,7 +261,30 @@ impl<'p> Search<'p> {
             organs.insert(known).1.with(wood)
         };
         tried.apart = outline.apart(first);
+        tried.apart.area <= self.bound
+    }
+
+    /// Looks at the outline of a mesh on all rows, and tells whether it holds.
+    fn holds_on_all_rows(&mut self, tried: &mut Tried) -> bool {
+        self.look(tried.step);
+        let Self { all_rows: Some((sides, first)), looked: Some(looked), costs, .. } = self else { return true };
+        looked.scene.thin(tried.options.thinned);
+        tried.apart = sides.of(&sides.of_wood(&looked.scene), &looked.scene, costs).apart(first);
         tried.apart.area <= MOST_APART
+    }
+
+    /// The next level after one, looked at on all rows.
+    fn checked(&mut self, before: &Tried, stated: Option<u64>) -> Found {
+        let most = stated.unwrap_or((before.faces as f64 * AIM) as u64);
+        let mut found = self.coarser(before, most);
+        let (Found::Fits(tried) | Found::Least(tried)) = &mut found;
+        let ends = stated.is_none() && tried.faces as f64 > WORTH * before.faces as f64;
+        if ends || self.holds_on_all_rows(tried) {
+            return found;
+        }
+        self.bound = MOST_APART;
+        (self.outline, self.looked, self.organs) = (self.all_rows.take(), None, None);
+        self.coarser(before, most)
     }
 
     /// The next level after one, of at most so many triangles.
@@ -305,7 +360,7 @@ impl<'p> Search<'p> {
     /// A mesh of fewer organs that has at most so many triangles.
     fn thinner(&mut self, widest: Tried, most: u64, is_at_bound: bool) -> Found {
         let step = widest.step;
-        let of_wood = widest.faces - self.faces_of_organs(&widest);
+        let of_wood = widest.faces - self.costs.faces(widest.step, widest.share);
         let share = self.costs.share_of(step, most.saturating_sub(of_wood)).min(widest.share);
         let (mut low, mut least) = ((share, None), widest);
         if of_wood <= most {
@@ -320,33 +375,18 @@ impl<'p> Search<'p> {
         for look in 0..looks {
             // Differences may grow and then become less as organs are fewer, so that the middle is looked at too.
             let known = low.1.filter(|_| look == 0);
-            let part = known.map_or(0.5, |apart| part_that_holds(&apart, &least.apart));
+            let part = known.map_or(0.5, |apart| apart.part_that_holds(&least.apart, AIMED_APART));
             let share = Costs::in_parts(low.0 + part * (least.share - low.0));
             let mut tried = self.count(step, share);
             if self.holds(&mut tried) { least = tried } else { low = (tried.share, Some(tried.apart)) }
         }
         Found::Least(least)
     }
-
-    fn faces_of_organs(&self, tried: &Tried) -> u64 {
-        self.costs.faces(tried.step, tried.share)
-    }
 }
 
 /// The same without what no outline shows.
 fn plain(options: &MeshOptions) -> MeshOptions {
     MeshOptions { colours: None, swings: None, attributes: false, crown_normals: false, ..options.clone() }
-}
-
-/// Where between an outline that does not hold and one that does lies the first that does, if the differences from
-/// each side change evenly: the part of the way.
-fn part_that_holds(low: &Apart, high: &Apart) -> f64 {
-    let sides = low.by_side.iter().zip(&high.by_side).map(|(low, high)| {
-        let wanted = low.clamp(-AIMED_APART, AIMED_APART);
-        let way = high - low;
-        if way.abs() > 1e-9 { (wanted - low) / way } else { 0.0 }
-    });
-    sides.fold(0.0, f64::max).clamp(0.1, 0.75)
 }
 
 /// How many octaves a number is above another.

@@ -102,6 +102,14 @@ impl Sides {
         Some(Self { lattice, longest })
     }
 
+    /// The same with a row for so many rows, and as many columns.
+    pub fn sparser(&self, by: u32) -> Self {
+        let (over, Lattice { rows, top, scale, .. }) = (1.0 / by as f32, &self.lattice);
+        let lattice =
+            Lattice { rows: rows.div_ceil(by), top: *top * over, scale: *scale * over, ..self.lattice.clone() };
+        Self { lattice, longest: self.longest }
+    }
+
     /// The longest side of the plant, metres.
     pub fn longest(&self) -> f32 {
         self.longest
@@ -217,6 +225,18 @@ impl Outline {
             apart.either = apart.either.max(either[side] as f64 * over);
         }
         apart
+    }
+}
+
+impl Apart {
+    /// Where between this outline, which does not hold, and one that does lies the first that holds within a bound, if
+    /// the differences from each side change evenly: the part of the way.
+    pub fn part_that_holds(&self, high: &Self, bound: f64) -> f64 {
+        let sides = self.by_side.iter().zip(&high.by_side).map(|(low, high)| {
+            let way = high - low;
+            if way.abs() > 1e-9 { (low.clamp(-bound, bound) - low) / way } else { 0.0 }
+        });
+        sides.fold(0.0, f64::max).clamp(0.1, 0.75)
     }
 }
 

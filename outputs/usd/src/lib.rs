@@ -26,7 +26,7 @@ pub use course::Pace;
 pub use phytomer_life::{Member, Organs};
 pub use phytomer_meshes::Patched;
 pub use scene::{Each, Planted, Stand, Take, write_scene};
-pub use still::{write_levels, write_plant, write_plot};
+pub use still::{write_levels, write_plant, write_plot, write_plot_levels};
 
 use binary::Binary;
 use course::Course;

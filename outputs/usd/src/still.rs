@@ -33,9 +33,7 @@ pub fn write_plant(asked: &Asked, scene: &Scene, run_seed: u64, out: &mut dyn Pa
 /// # Errors
 /// Those of `out`.
 pub fn write_levels(asked: &Asked, levels: &[Scene], run_seed: u64, out: &mut dyn Patched) -> io::Result<()> {
-    let names: Vec<String> = (0..levels.len()).map(|number| format!("lod{number}")).collect();
-    let variants = Variants { set: "lod", names: &names };
-    in_variants(asked, &variants, out, &mut |number, layer| {
+    in_levels(asked, levels.len(), out, &mut |number, layer| {
         let (scene, merged) = (&levels[number], asked.organs == Organs::Merged);
         let about = scene.about(run_seed);
         let wood = Scene::new(scene.plant(), scene.age(), &wood_of(scene.options()));
@@ -46,6 +44,33 @@ pub fn write_levels(asked: &Asked, levels: &[Scene], run_seed: u64, out: &mut dy
         let organs = Scene::new(scene.plant(), scene.age(), &organs_alone(scene.options()));
         put_drawn(layer, asked, [&wood, &PlantDrawing { scene: &organs, about }])
     })
+}
+
+/// Writes levels of detail of the plants of a plot, as [`write_levels`] does; obstacles are in each of them.
+///
+/// # Errors
+/// As [`write_plot`].
+pub fn write_plot_levels(asked: &Asked, levels: &[&PlotMesh], out: &mut dyn Patched) -> io::Result<()> {
+    in_levels(asked, levels.len(), out, &mut |number, layer| {
+        let (plot, merged) = (levels[number], asked.organs == Organs::Merged);
+        let wood = wood_of_plot(plot);
+        if number == 0 && !are_slotted(plot.bodies.iter().map(|body| &body.options), merged) {
+            return put_still(layer, asked, &wood.drawing()?, (&StillOrgans::of_plot(plot), None));
+        }
+        let organs = organs_of_plot(plot);
+        put_drawn(layer, asked, [&wood.drawing()?, &organs.drawing()?])
+    })
+}
+
+/// Writes so many variants `lod0`, `lod1` and so on.
+fn in_levels(
+    asked: &Asked,
+    count: usize,
+    out: &mut dyn Patched,
+    write: &mut dyn FnMut(usize, &mut dyn Layer) -> io::Result<()>,
+) -> io::Result<()> {
+    let names: Vec<String> = (0..count).map(|number| format!("lod{number}")).collect();
+    in_variants(asked, &Variants { set: "lod", names: &names }, out, write)
 }
 
 /// Whether organs are drawn into a mesh of their own.

@@ -115,6 +115,26 @@ impl Format {
         beside_usd(&asked, path)
     }
 
+    /// Writes levels of detail of the plants of a plot, the finest first, into one file of USD, with words about them.
+    ///
+    /// # Errors
+    /// As [`Format::write_levels`].
+    pub fn write_plot_levels(
+        self,
+        levels: &[&PlotMesh],
+        told: &str,
+        out: &mut Destination,
+        path: &Path,
+    ) -> io::Result<()> {
+        let (Self::Usd(encoding, organs), Some(first)) = (self, levels.first()) else {
+            return Err(io::Error::other("levels of detail are in one file in GLB and USD alone"));
+        };
+        let pictures = Pictures::of(&first.drawing()?.slots(), stem(path));
+        let asked = Asked { encoding, organs, words: format!("{}; {told}", first.name), pictures };
+        usd::write_plot_levels(&asked, levels, out)?;
+        beside_usd(&asked, path)
+    }
+
     /// Writes the plants of a plot, with its obstacles.
     ///
     /// # Errors

@@ -61,7 +61,7 @@ impl Lods {
     ///
     /// # Errors
     /// The format, or the name.
-    pub fn check(&self, out: &Path, format: Format, is_plot: bool) -> Result<(), Misuse> {
+    pub fn check(&self, out: &Path, format: Format) -> Result<(), Misuse> {
         if self.lods.is_none() {
             return Ok(());
         }
@@ -76,9 +76,6 @@ impl Lods {
             Format::Glb(Organs::Instances) => Err(Misuse(
                 "--lods: organs that stand for others are larger than their model; leave out --leaves instances"
                     .to_owned(),
-            )),
-            Format::Usd(..) if is_plot => Err(Misuse(
-                "--lods: a USD file has levels of a single plant; write a plot as GLB, PLY, OBJ or STL".to_owned(),
             )),
             Format::Ply | Format::Stl | Format::Obj if is_stdout(out) => Err(Misuse(
                 "--lods: each level is a file, and stdout is one: name a file, to whose name _lod0 and so on are added"

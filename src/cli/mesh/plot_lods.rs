@@ -2,7 +2,7 @@
 //!
 //! Each plant keeps its own outline: level k of the plot has level k of each plant, or the last that it has. Counts are
 //! shared out among the plants in proportion to their triangles, after the obstacles, which stay as they are. Absent:
-//! the levels of one plant (`phytomer_outputs::pictures::levels`), cards, and USD.
+//! the levels of one plant (`phytomer_outputs::pictures::levels`), and cards.
 
 use super::super::{Misuse, Verdict, amounts, out};
 use super::Mesh;
@@ -41,8 +41,12 @@ pub fn write(mesh: &Mesh, plot: &PlotMesh, format: Format, what: &str) -> Result
     {
         *last += "; further levels would have hardly fewer, or another outline";
     }
-    if let Format::Glb(_) = format {
-        let bytes = amounts::bytes(write_glb(mesh, &found)? as f64);
+    if let Format::Glb(_) | Format::Usd(..) = format {
+        let bytes = match format {
+            Format::Usd(..) => write_usd(mesh, format, &found)?,
+            _ => write_glb(mesh, &found)?,
+        };
+        let bytes = amounts::bytes(bytes as f64);
         let levels = amounts::of(lines.len() as u64, "level");
         out::tell(&mesh.out, &format!("{what}, {levels}, {bytes}\n  {}", lines.join("\n  ")))?;
         return Ok(Verdict::Done);
@@ -113,5 +117,14 @@ fn write_glb(mesh: &Mesh, found: &[OfPlot]) -> Result<u64> {
         drawings.iter().map(|drawing| drawing as &dyn Drawing).enumerate().map(level).collect();
     let mut file = Destination::create(&mesh.out)?;
     write_levels(&levels, None, &mut file).with_context(|| mesh.failing())?;
+    Ok(file.finish()?)
+}
+
+fn write_usd(mesh: &Mesh, format: Format, found: &[OfPlot]) -> Result<u64> {
+    let words = found.iter().enumerate().map(|(number, level)| level.in_words(number));
+    let words = words.collect::<Vec<_>>().join("; ");
+    let levels: Vec<&PlotMesh> = found.iter().map(|level| &level.mesh).collect();
+    let mut file = Destination::create(&mesh.out)?;
+    format.write_plot_levels(&levels, &words, &mut file, &mesh.out).with_context(|| mesh.failing())?;
     Ok(file.finish()?)
 }

@@ -19,6 +19,25 @@ const INTO: f64 = 0.1;
 /// The most of the length of a trunk that its flare takes.
 const MOST: f64 = 0.5;
 
+/// The shares of its height at which a flare has rings.
+pub fn shares() -> impl Iterator<Item = f64> {
+    (0..=STRETCHES).map(|k| {
+        let part = f64::from(k) / f64::from(STRETCHES);
+        // Closer to one another near the ground, where the profile bends.
+        part * part.sqrt()
+    })
+}
+
+/// The corners of a ring of a flare, a multiple of those of the wood.
+pub fn corners_of(flare: &Flare, sides: u32) -> u32 {
+    LEAST.max(OF_A_LOBE * flare.lobes).div_ceil(sides) * sides
+}
+
+/// The most of the length of a trunk that its flare takes.
+pub fn most_of_trunk() -> f64 {
+    MOST
+}
+
 /// The stations of a trunk with those of its flare, and the length along it at which the flare ends.
 pub fn flared(flare: &Flare, stations: Vec<Station>, outlines: &mut Outlines) -> (Vec<Station>, f64) {
     let (Some(first), Some(last)) = (stations.first().copied(), stations.last()) else { return (stations, 0.0) };
@@ -27,13 +46,8 @@ pub fn flared(flare: &Flare, stations: Vec<Station>, outlines: &mut Outlines) ->
     if !(long.is_finite() && long > 0.0 && first.radius > 0.0) {
         return (stations, first.z);
     }
-    let shares = (0..=STRETCHES).map(|k| {
-        let part = f64::from(k) / f64::from(STRETCHES);
-        // Closer to one another near the ground, where the profile bends.
-        part * part.sqrt()
-    });
     let own = stations.iter().map(|station| station.z).filter(|z| *z < end);
-    let mut lengths: Vec<f64> = shares.map(|share| first.z + share * long).chain(own).collect();
+    let mut lengths: Vec<f64> = shares().map(|share| first.z + share * long).chain(own).collect();
     lengths.sort_by(f64::total_cmp);
     // Rings that are nearer than this to the one below are left out, but for steps of the wood at one length.
     let apart = 1e-3 * long;
@@ -66,7 +80,7 @@ pub fn within(last: &Station, course: &Course) -> Station {
 /// wood.
 fn outline(flare: &Flare, share: f64, wood: &Outline) -> (Outline, f64) {
     let sides = wood.corners().len().max(3) as u32;
-    let corners = LEAST.max(OF_A_LOBE * flare.lobes).div_ceil(sides) * sides;
+    let corners = corners_of(flare, sides);
     let mean = 1.0 + flare.wider(share, 0.0) * (1.0 - 0.5 * flare.depth * f64::from(u8::from(flare.lobes > 0)));
     let reach = |angle: f64| wood.reach(angle) * (1.0 + flare.wider(share, angle)) / mean;
     (Outline::lobed(corners, reach), mean)

@@ -9,7 +9,7 @@
 use super::course::Course;
 use super::outline::Outline;
 use glam::DVec3;
-use phytomer_sim::math::{asin, sincos};
+use phytomer_sim::math::{asin, atan2, sincos};
 use std::f64::consts::{PI, TAU};
 
 /// The least sine of the angle between a limb and its bearer with which borders are computed: 20 degrees.
@@ -130,14 +130,49 @@ impl Out {
         (end - high > 0.02 * stations[first].radius + 1e-6).then_some(Self { own: high, bearer: at })
     }
 
-    /// The first length at which a line lies in another limb, looked for over some radii from where it comes out.
+    /// The first length at which more than half of a limb lies in another one, looked for over some radii from where
+    /// its line comes out of its bearer. One of which less does so goes through the other on its own: what both fill is
+    /// then less than what would be missing, were its skin to begin where it has left the other.
     pub fn within(other: &Course, own: &Course, out: f64) -> Option<f64> {
         let (r, end) = (own.radius(out), own.ends()[1]);
         let mut near = other.ends()[0];
         (0..=LOOKED_FOR).map(|k| out + 0.5 * f64::from(k) * r).take_while(|z| *z < end).find(|z| {
             let beside = other.beside(own.line(*z), near);
             near = beside.z;
-            beside.distance < beside.radius
+            shared(beside.distance, beside.radius, own.radius(*z)) > 0.5
         })
+    }
+}
+
+/// The share of a disc of the radius `r` that lies in one of the radius `other`, whose middles are so far apart.
+fn shared(apart: f64, other: f64, r: f64) -> f64 {
+    if apart >= other + r {
+        return 0.0;
+    }
+    if apart <= (other - r).abs() {
+        return (other * other / (r * r)).min(1.0);
+    }
+    // Half of the chord in which both circles cut, and of each the part beyond it.
+    let side = |of: f64, to: f64| (apart * apart + of * of - to * to) / (2.0 * apart);
+    let [own_side, other_side] = [side(r, other), side(other, r)];
+    let chord = (r * r - own_side * own_side).max(0.0).sqrt();
+    let part = |of: f64, side: f64| of * of * atan2(chord, side) - side * chord;
+    (part(r, own_side) + part(other, other_side)) / (PI * r * r)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Equal discs share half of each where their middles are 0.8079 radii apart; the lens of two that go through each
+    /// other's middle has the area 2 π / 3 − √3 / 2.
+    #[test]
+    fn discs_share_lenses() {
+        assert!((shared(0.807_945_5, 1.0, 1.0) - 0.5).abs() < 1e-6, "{}", shared(0.807_945_5, 1.0, 1.0));
+        assert!((shared(1.0, 1.0, 1.0) - (2.0 * PI / 3.0 - 0.75_f64.sqrt()) / PI).abs() < 1e-12);
+        assert_eq!([shared(3.1, 2.0, 1.0), shared(0.9, 2.0, 1.0)], [0.0, 1.0]);
+        // A small disc on the edge of a very large one has half of itself in it; a large one holds little of it.
+        assert!((shared(1000.0, 1000.0, 1.0) - 0.5).abs() < 1e-3);
+        assert!((shared(0.1, 0.5, 1.0) - 0.25).abs() < 1e-12);
     }
 }

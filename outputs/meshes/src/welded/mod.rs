@@ -25,12 +25,13 @@ mod tests;
 mod tests_feet;
 
 use super::chunk::{Face, Vertex};
-use super::dress::covered;
+use super::dress::bark_covers;
 use super::reduced::chain::Sample;
 use super::reduced::{sides, simplify::simplify};
 use super::stem::Stems;
 use super::{Counts, Tolerance};
 use course::{Course, Station};
+pub(super) use flare::{corners_of, most_of_trunk, shares};
 use foot::{Foot, Out};
 use fork::Fork;
 use glam::{DVec3, Vec3};
@@ -356,7 +357,7 @@ impl<'s> Stand<'s> {
                 let ([_, over], below) = all[bearer];
                 below + at / f64::from(over)
             });
-            all.push((size.map_or([1.0; 2], |size| covered(size, around)), below));
+            all.push((size.map_or([1.0; 2], |size| bark_covers(size, around)), below));
         }
         all
     }

@@ -55,7 +55,11 @@ fn part_of(cluster: &Cluster, detail: u8) -> FormMesh {
     match (&cluster.flower, cluster.form.near()) {
         (Some(flower), _) => flower::flower(flower, cluster.width, grid),
         (None, Some(near)) => made(&near, cluster.width, grid),
-        (None, None) => rounder::rounder(super::super::shape(cluster.form.form()), [1, 1, 2, 3][usize::from(detail)]),
+        (None, None) => {
+            let shape = super::super::shape(cluster.form.form());
+            // At detail 1 they share the corners of their triangles, so that many of them fit into a form.
+            if detail < 2 { shape.clone() } else { rounder::rounder(shape, u32::from(detail)) }
+        }
     }
 }
 

@@ -21,7 +21,7 @@ mod tests;
 pub use area::fullness;
 
 use super::FormMesh;
-use phytomer_looks::{FormName, MOST_DETAIL, Near};
+use phytomer_looks::{Cluster, FormName, MOST_DETAIL, Near};
 use phytomer_sim::plant::Form;
 use std::sync::{LazyLock, OnceLock};
 
@@ -114,7 +114,8 @@ pub fn of_library(form: Form, detail: u8, size: [f32; 2], area: f32) -> (&'stati
 /// The most corners of a form: a chunk of vertices must hold it.
 const MOST_CORNERS: usize = 20_000;
 
-/// The form at a detail, or at the next lower one where it would have more than [`MOST_CORNERS`].
+/// The form at a detail, or at the next lower one where it would have more than [`MOST_CORNERS`]; a cluster of which
+/// even that has more has half as many parts, or half of these.
 fn made(near: &Near, aspect: f32, detail: u8) -> FormMesh {
     let at = |detail: u8| match near {
         Near::Blade(blade) => leaf::leaf(blade, aspect, detail),
@@ -124,7 +125,16 @@ fn made(near: &Near, aspect: f32, detail: u8) -> FormMesh {
         Near::Cluster(parts) => cluster::cluster(parts, aspect, detail),
     };
     let fits = |form: &FormMesh| form.points.len() <= MOST_CORNERS;
-    let found = (1..=detail).rev().map(at).find(fits);
+    if let Some(form) = (1..=detail).rev().map(at).find(fits) {
+        return form;
+    }
+    let fewer = |times: u32| match near {
+        Near::Cluster(parts) => {
+            Some(cluster::cluster(&Cluster { count: (parts.count >> times).max(1), ..*parts }, aspect, 1))
+        }
+        _ => None,
+    };
+    let found = (1..u8::BITS).filter_map(fewer).find(fits);
     found.unwrap_or_else(|| leaf::leaf(&phytomer_looks::Blade::default(), aspect, 1))
 }
 

@@ -124,3 +124,32 @@ fn classes_of_proportions_are_steps_of_the_root_of_two() {
     let unseen = [class([1.0, f32::NAN]), class([0.0, 0.0]), class([1.0, 0.0])];
     assert_eq!((unseen, class([0.0, 1.0])), ([0; 3], CLASSES - 1));
 }
+
+/// However many corners its parts have, a bunch is a bunch: as high and as deep as it is wide. Some forms are tried,
+/// and that of the fruits of an oil palm.
+#[test]
+fn a_cluster_of_many_stays_a_cluster() {
+    for form in FormName::ALL.into_iter().step_by(6).chain([FormName::Drupe]) {
+        let (flower, middle) = (None, 0.5);
+        let bunch = Cluster { count: 240, form, flower, stalk: 0.66, width: 0.8, spread_deg: 165.0, middle };
+        // Where it has too many corners it has the grid of a lower detail, or fewer parts.
+        let made = made(&Near::Cluster(bunch), 0.7, 3);
+        assert!(made.points.len() <= MOST_CORNERS && made.faces.len() > 240, "{form:?}");
+        let extent = |k: usize| {
+            let far = made.points.iter().map(|point| point.at[k]);
+            far.clone().fold(0.0, f32::max) - far.fold(0.0, f32::min)
+        };
+        assert!(extent(1) > 0.6 && extent(2) > 0.8 * extent(1), "{form:?}: {} {}", extent(1), extent(2));
+    }
+    // Sixty grains are all there.
+    let parts = Cluster {
+        count: 60,
+        form: FormName::Berry,
+        flower: None,
+        stalk: 0.3,
+        width: 0.9,
+        spread_deg: 100.0,
+        middle: 0.0,
+    };
+    assert!(made(&Near::Cluster(parts), 0.7, 2).faces.len() > 60 * 100);
+}

@@ -105,6 +105,11 @@ impl OwnForms {
         &self.textures
     }
 
+    /// Whether a picture covers any part.
+    pub fn has_textures(&self) -> bool {
+        !self.textures.list.is_empty()
+    }
+
     /// How the foot of the trunk widens.
     pub fn flare(&self) -> Option<&Flare> {
         self.flare.as_ref()
