@@ -1,9 +1,9 @@
 //! The light of all sources, added up in their order while they are still followed.
 //!
 //! Each thread takes the next source that nobody follows yet. What it finds waits until the sources before it are
-//! added; who hands in the one that is due adds it, and those behind it that wait. So sums are those of one thread to the
-//! last bit, no thread waits for another before the last source, and mostly one source a thread is kept in memory, 16
-//! bytes a wanted voxel. Absent: how a source is followed (`field`).
+//! added; who hands in the one that is due adds it, and those behind it that wait. So sums are those of one thread to
+//! the last bit, no thread waits for another before the last source, and mostly one source a thread is kept in memory,
+//! 16 bytes a wanted voxel. Absent: how a source is followed (`field`).
 
 use super::beam::{Along, Shone};
 use super::{Balance, Source};
