@@ -86,11 +86,11 @@ impl Counted {
         let shape = &*grid;
         let of = self.plants.par_iter_mut().zip(standing.plants).zip(standing.ages).zip(buds);
         let longest = lighting.voxel_m / 2.0;
-        let count = |(((of, plant), age), buds): (((&mut OfPlant, &Plant), &Option<Tick>), &Vec<(usize, Point)>)| {
+        let fit = of.with_min_len(FEWEST_PLANTS).map(|(((of, plant), age), buds)| {
             of.mark(shape, buds);
             of.count(shape, plant, *age, longest)
-        };
-        if !of.with_min_len(FEWEST_PLANTS).map(count).reduce(|| true, |one, two| one && two) {
+        });
+        if !fit.reduce(|| true, |one, two| one && two) {
             self.grid = None;
             return None;
         }
