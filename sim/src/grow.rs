@@ -9,11 +9,11 @@
 
 use crate::cells::Claims;
 use crate::clock::Tick;
-use crate::mechanics::{Scratch, Thickening, bend, thicken};
+use crate::mechanics::{Scratch, Thickening, Wood, bend, thicken};
 use crate::model::{GrowthModel, Life, Overgrown};
 use crate::plant::Plant;
 use crate::plot::{Member, Plot};
-use crate::pose::height;
+use crate::pose::{height, pose};
 use crate::record::{RecordError, Recorder};
 use crate::shed::{note_falls, shed};
 use crate::site::stems::{Stems, Whose};
@@ -88,7 +88,11 @@ fn follow_ticks(
         // What is sown may have wood already.
         let met = || plot.feels_light() || plot.site.whose_stems != Whose::Nobody;
         if wanted || (plot.is_looked_at() && (tick > 0 || met())) {
-            plot.stand(tick);
+            if wanted || tick == last || plot.needs_diameters() {
+                plot.stand(tick);
+            } else {
+                plot.stand_unthickened(tick);
+            }
         }
         if wanted {
             recorder.record(tick, plot)?;
@@ -172,17 +176,46 @@ impl Plot<'_> {
     /// Gives each internode of all members its diameter and its place at `tick`, and finds their light where something
     /// asks for it.
     pub fn stand(&mut self, tick: Tick) {
+        self.each_stands(tick, stand);
+        self.shine(tick);
+    }
+
+    /// As [`Plot::stand`], where nothing asks for diameters: they stay those of an earlier tick.
+    fn stand_unthickened(&mut self, tick: Tick) {
+        self.each_stands(tick, |model, plant, age, _| {
+            pose(plant, age);
+            measure_height(model, plant, age);
+        });
+        self.shine(tick);
+    }
+
+    /// Gives each internode of all members its diameter and its place at `tick`, without light.
+    pub(crate) fn stand_in_known_light(&mut self, tick: Tick) {
+        self.each_stands(tick, stand);
+    }
+
+    fn each_stands(&mut self, tick: Tick, stands: impl Fn(&dyn GrowthModel, &mut Plant, Tick, &Site) + Sync) {
         let Self { species, plants, members, site, .. } = self;
         let one = |(plant, member): (&mut Plant, &Member)| {
             if let Some(age) = member.age_at(tick) {
-                stand(species[member.species], plant, age, site);
+                stands(species[member.species], plant, age, site);
             }
         };
         match (&mut plants[..], &members[..]) {
             ([plant], [member]) => one((plant, member)),
             (plants, members) => plants.par_iter_mut().zip(members).for_each(one),
         }
-        self.shine(tick);
+    }
+
+    /// Whether something asks for the diameters of the internodes at each tick at which the plants stand: wood that
+    /// bends, a rule that adds to the diameters of the last tick, shoots that meet stems, or light that wood keeps.
+    pub(crate) fn needs_diameters(&self) -> bool {
+        let site = &self.site;
+        let bends = |wood: &Wood| wood.feels(&site.fields(&wood.drag));
+        let asks =
+            |plant: &Plant| plant.habit.thickening() != Thickening::Law || plant.habit.wood.as_ref().is_some_and(bends);
+        let wood_keeps_light = site.light.as_ref().is_some_and(|light| light.lighting.wood);
+        wood_keeps_light || site.whose_stems != Whose::Nobody || self.plants.iter().any(asks)
     }
 
     /// Whether plants must stand at every tick: wood remembers its shape, the site sees where buds are, or growth
@@ -220,6 +253,12 @@ pub fn stand(model: &dyn GrowthModel, plant: &mut Plant, age: Tick, site: &Site)
     }
     bend(plant, age, site, &mut scratch);
     SCRATCH.set(scratch);
+    // Passes along the internodes that follow, of tables and meshes, find them known.
+    plant.appeared.by(age, &plant.nodes);
+    measure_height(model, plant, age);
+}
+
+fn measure_height(model: &dyn GrowthModel, plant: &mut Plant, age: Tick) {
     if model.sees_height() {
         plant.height = height(plant, age);
     }

@@ -8,7 +8,7 @@ use crate::plot::Plot;
 use crate::shape::Point;
 use crate::site::light::field::grid_of;
 use crate::site::light::{Borders, Canopy, Field, Lighting, Lit, Piece, Standing};
-use rayon::iter::{IndexedParallelIterator, IntoParallelIterator, IntoParallelRefMutIterator, ParallelIterator};
+use rayon::iter::{IndexedParallelIterator, IntoParallelRefMutIterator, ParallelIterator};
 use std::sync::Arc;
 
 /// A plant of a stand, by itself.
@@ -47,21 +47,22 @@ impl Plot<'_> {
         let feel: Vec<bool> = members.iter().map(|member| species[member.species].sees_light()).collect();
         let ages: Vec<Option<Tick>> = members.iter().map(|member| member.age_at(tick)).collect();
         let standing = Standing { plants, ages: &ages, wood: light.lighting.wood, feel: &feel };
-        let buds = |plant: usize| {
-            let mut buds = Vec::new();
+        let mut buds = std::mem::take(&mut light.counted.buds);
+        buds.resize(standing.plants(), Vec::new());
+        buds.par_iter_mut().enumerate().for_each(|(plant, buds)| {
+            buds.clear();
             standing.buds(plant, &mut |axis, place| buds.push((axis, place)));
-            buds
-        };
-        let buds: Vec<Vec<(usize, Point)>> = (0..standing.plants()).into_par_iter().map(buds).collect();
+        });
         let counted = light.counted.grid(&light.lighting, &standing, &buds);
         let grid = counted.unwrap_or_else(|| grid_of(&light.lighting, &standing));
         let field = Field::in_grid(&light.lighting, grid, &light.lighting.sources(tick));
         if light.felt {
-            plants.par_iter_mut().zip(buds).for_each(|(plant, buds)| {
-                let lit = buds.into_iter().map(|(axis, place)| (axis, field.share_at(place)));
+            plants.par_iter_mut().zip(&buds).for_each(|(plant, buds)| {
+                let lit = buds.iter().map(|(axis, place)| (*axis, field.share_at(*place)));
                 plant.shade.set(plant.axes.len(), lit);
             });
         }
+        light.counted.buds = buds;
         light.found = Some(Arc::new(field));
     }
 

@@ -41,9 +41,13 @@ impl Plot<'_> {
         if self.management.is_empty() || self.management.next(tick - 1, &members) != Some(tick) {
             return Ok(());
         }
-        // Where plants stand at each tick anyway, they have stood at the last.
-        if self.management.looks_at(tick, &members) && !self.is_looked_at() {
-            self.stand(tick - 1);
+        // Where plants stand at each tick anyway, they have stood at the last, though perhaps without their diameters.
+        if self.management.looks_at(tick, &members) {
+            if !self.is_looked_at() {
+                self.stand(tick - 1);
+            } else if !self.needs_diameters() {
+                self.stand_in_known_light(tick - 1);
+            }
         }
         let replants = self.management.replants(tick, &members);
         let Self { species, plants, lives, members: all, management, .. } = self;

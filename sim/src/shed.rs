@@ -12,8 +12,12 @@ use crate::plant::{AxisId, Cause, Event, EventKind, NO_STATE, Plant};
 /// Writes the death and the fall of every branch of `plant` whose buds are all dead, and of what it bears.
 pub fn shed(plant: &mut Plant) {
     plant.end_cut_apices();
-    kill_branches(plant);
+    let changed = kill_branches(plant);
     drop_branches(plant);
+    // An organ appears while the bud lives that makes its node: where no death has become another, each has its end.
+    if !changed && plant.cuts.is_empty() {
+        return;
+    }
     for organ in 0..plant.organs.len() {
         let node = plant.organs.node[organ];
         let death = plant.death_of(node);
@@ -26,9 +30,11 @@ pub fn shed(plant: &mut Plant) {
     }
 }
 
-/// One reverse scan: a branch dies with the last of its buds. An axis comes after the one that bears it.
-fn kill_branches(plant: &mut Plant) {
+/// One reverse scan: a branch dies with the last of its buds. An axis comes after the one that bears it. Whether the
+/// death of some branch has become another.
+fn kill_branches(plant: &mut Plant) -> bool {
     let Plant { axes, nodes, cuts, .. } = plant;
+    let before = axes.death.clone();
     axes.death.copy_from_slice(&axes.spent);
     let mut last = None;
     for axis in (0..axes.len()).rev() {
@@ -42,7 +48,9 @@ fn kill_branches(plant: &mut Plant) {
             None => last = last.max(Some(death)),
         }
     }
+    let changed = axes.death != before;
     plant.death = last.unwrap_or(NEVER);
+    changed
 }
 
 /// One forward scan: a branch falls its own delay after its death, or with the branch that bears it.

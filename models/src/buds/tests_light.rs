@@ -130,7 +130,11 @@ fn bush(death: &str, response: Vec<Response>) -> BudModel {
     let leafy = |death: &str| Order {
         death: expression(death),
         growth_unit: GrowthUnit { nodes: Count::from(2), ..GrowthUnit::default() },
-        internode: Internode { length_cm: Variate::from(6.0), ..Internode::default() },
+        internode: Internode {
+            length_cm: Variate::from(6.0),
+            thickening_mm: expression("0.5 * dimension"),
+            ..Internode::default()
+        },
         leaf: Leaf {
             per_node: Count::from(2),
             length_cm: Variate::from(15.0),
@@ -264,6 +268,39 @@ fn leaf_area_that_is_kept_is_that_of_all_leaves() {
             }
             assert!(gone > 50 && is_kept == kept, "{gone}, {is_kept}");
         }
+    }
+}
+
+/// Where nothing asks for diameters, plants in light stand without them until the last tick: all is as if they had been
+/// thickened at each.
+#[test]
+fn plants_that_are_thickened_at_the_last_tick_alone_are_the_same() {
+    let [bush, tree] = thicket();
+    let models: [&dyn GrowthModel; 2] = [&bush, &tree];
+    let lighting = || Lighting { voxel_m: 0.2, ..Lighting::default() };
+    let late = grown(&models, &[0, 1, 2, 3], 9, Some(lighting()));
+    let sowing = |number: u32| Sowing {
+        species: number as usize % 2,
+        seed: seed_of(12, number),
+        place: [f64::from(number % 4), f64::from(number / 4), 0.0],
+        sown: 0,
+    };
+    let mut plot = Plot::new(0, models.to_vec(), &(0..4).map(sowing).collect::<Vec<_>>());
+    plot.site.light = Some(Light::of(lighting()));
+    plot.ask_light();
+    for tick in 0..=9 {
+        plot.site.begin(tick);
+        if tick > 0 {
+            plot.grow_to(tick).expect("room to grow");
+        }
+        plot.stand(tick);
+    }
+    for (late, each) in late.iter().zip(&plot.plants) {
+        let thickened = |node: &usize| late.nodes.diameter[*node] > late.nodes.primary_diameter[*node];
+        assert!((0..late.nodes.len()).filter(thickened).count() > 50);
+        assert!(late.nodes == each.nodes && late.axes == each.axes && late.organs == each.organs);
+        let frames = |plant: &Plant| (plant.frames.base.clone(), plant.frames.heading.clone(), plant.frames.up.clone());
+        assert_eq!(frames(late), frames(each));
     }
 }
 

@@ -29,6 +29,8 @@ pub struct Frames {
     pub(crate) age: Tick,
     /// The age before which frames are made: internodes that appeared earlier have their frame.
     pub(crate) posed: Tick,
+    /// So many internodes, from the first on, need not be looked at for those without a frame.
+    pub(crate) done: usize,
     /// Changes whenever frames that were there may have become others; new frames alone do not change it.
     pub(crate) version: u64,
 }
@@ -50,7 +52,7 @@ impl Frames {
 
     /// Lets the next pose make every frame, and keeps the frames and the lengths that are there until then.
     pub(crate) fn make_anew(&mut self) {
-        self.posed = 0;
+        (self.posed, self.done) = (0, 0);
         self.version += 1;
         self.courses.clear();
     }

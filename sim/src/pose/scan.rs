@@ -15,18 +15,31 @@ use crate::plant::{AxisId, Nodes, Plant};
 use crate::vector::Vector;
 use std::ops::Range;
 
-/// Poses the nodes that appeared by `age` and have no frame yet, run by run.
+/// Poses the nodes that appeared by `age` and have no frame yet, run by run. Those of a plant that grows by the clock
+/// are the last in the columns: no others are looked at.
 pub(super) fn follow<C: Course>(plant: &mut Plant, age: Tick) {
     let posed = plant.frames.begin(plant.nodes.len(), plant.axes.len(), age);
-    let mut appeared = std::mem::take(&mut plant.appeared);
     let mut insertion = LastInsertion::default();
-    for stretch in appeared.by(age, &plant.nodes) {
-        let born = stretch.nodes();
+    let mut follow_run = |plant: &mut Plant, axis: AxisId, born: Range<usize>| {
         let birth = &plant.nodes.birth[born.clone()];
         let old = if birth[0] < posed { birth.partition_point(|&birth| birth < posed) } else { 0 };
         if old < born.len() {
-            follow_axis::<C>(plant, stretch.axis, born.start + old..born.end, age, &mut insertion);
+            follow_axis::<C>(plant, axis, born.start + old..born.end, age, &mut insertion);
         }
+    };
+    let done = plant.frames.done.min(plant.nodes.len());
+    if plant.nodes.birth[done..].iter().all(|birth| *birth <= age) {
+        let first = plant.nodes.runs.partition_point(|first| first.index() <= done).saturating_sub(1);
+        for run in first..plant.nodes.runs.len() {
+            let run = plant.nodes.run(run);
+            follow_run(plant, plant.nodes.axis[run.start], run);
+        }
+        plant.frames.done = plant.nodes.len();
+        return;
+    }
+    let mut appeared = std::mem::take(&mut plant.appeared);
+    for stretch in appeared.by(age, &plant.nodes) {
+        follow_run(plant, stretch.axis, stretch.nodes());
     }
     plant.appeared = appeared;
 }

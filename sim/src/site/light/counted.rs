@@ -29,6 +29,8 @@ pub struct Counted {
     plants: Vec<OfPlant>,
     /// Whether so many leaves fall at a tick that all are sooner added anew.
     given_up: bool,
+    /// Memory for the buds of each plant, kept from tick to tick.
+    pub(crate) buds: Vec<Vec<(usize, Point)>>,
 }
 
 /// What is counted of a plant.
@@ -42,6 +44,8 @@ struct OfPlant {
     organs: Vec<Share>,
     /// What has changed.
     changes: Vec<(Voxel, u8, i64)>,
+    /// The voxels of its buds; one after the other they differ.
+    marks: Vec<Voxel>,
     /// How many leaves stand, and how many had to be taken away.
     leaves: [usize; 2],
 }
@@ -80,18 +84,16 @@ impl Counted {
         let empty = || Grid::of(lighting);
         let grid = self.grid.get_or_insert_with(empty);
         let shape = &*grid;
-        let of = self.plants.par_iter_mut().zip(standing.plants).zip(standing.ages).with_min_len(FEWEST_PLANTS);
+        let of = self.plants.par_iter_mut().zip(standing.plants).zip(standing.ages).zip(buds);
         let longest = lighting.voxel_m / 2.0;
-        if !of.map(|((of, plant), age)| of.count(shape, plant, *age, longest)).reduce(|| true, |one, two| one && two) {
+        let fit = of.with_min_len(FEWEST_PLANTS).map(|(((of, plant), age), buds)| {
+            of.mark(shape, buds);
+            of.count(shape, plant, *age, longest)
+        });
+        if !fit.reduce(|| true, |one, two| one && two) {
             self.grid = None;
             return None;
         }
-        let voxels_of = |buds: &Vec<(usize, Point)>| {
-            let mut voxels: Vec<Voxel> = buds.iter().map(|(_, place)| shape.within(shape.voxel(*place))).collect();
-            voxels.dedup();
-            voxels
-        };
-        let marked: Vec<Vec<Voxel>> = buds.par_iter().with_min_len(FEWEST_PLANTS).map(voxels_of).collect();
         let [stand, taken] = self.plants.iter().fold([0; 2], |[a, b], of| [a + of.leaves[0], b + of.leaves[1]]);
         self.given_up = taken > MOST_TAKEN.max(stand / 3);
         for of in &self.plants {
@@ -100,7 +102,7 @@ impl Counted {
             }
         }
         grid.unmark();
-        marked.into_iter().flatten().for_each(|voxel| grid.mark_voxel(voxel));
+        self.plants.iter().flat_map(|of| &of.marks).for_each(|voxel| grid.mark_voxel(*voxel));
         let mut sorted = grid.sorted();
         let anchor = sorted.voxel(standing.anchor());
         sorted.anchor = [anchor[0], anchor[1]];
@@ -136,6 +138,13 @@ fn keeps_its_leaves(plant: &Plant) -> bool {
 }
 
 impl OfPlant {
+    /// Notes the voxels of its buds.
+    fn mark(&mut self, grid: &Grid, buds: &[(usize, Point)]) {
+        self.marks.clear();
+        self.marks.extend(buds.iter().map(|(_, place)| grid.within(grid.voxel(*place))));
+        self.marks.dedup();
+    }
+
     /// Notes what has changed in a plant since it was counted; whether its leaves are not too large for it.
     fn count(&mut self, grid: &Grid, plant: &Plant, age: Option<Tick>, longest: f64) -> bool {
         self.changes.clear();

@@ -1,10 +1,11 @@
 //! The light of a plot found by voxels: the one model of light that plots use.
 //!
 //! Sources are followed side by side, each by one thread from its first beam to its last, and their sums are added in
-//! the order of the sources: so no number of threads shows. Of a source a voxel has the share of its light that beams
-//! have in it on average, and keeps what they leave there. A voxel that the beams of a source miss is asked at its
-//! middle. Absent: beams (`sweep`, `beam`), and what a canopy is (`canopy`).
+//! the order of the sources as soon as those before are (`added`): so no number of threads shows. Of a source a voxel
+//! has the share of its light that beams have in it on average, and keeps what they leave there. A voxel that the beams
+//! of a source miss is asked at its middle. Absent: beams (`sweep`, `beam`), and what a canopy is (`canopy`).
 
+use super::added;
 use super::beam::{self, Along, Shone, depth_towards};
 use super::canopy::{Canopy, Piece};
 use super::grid::{BITS, Grid, UNITS, VOXELS};
@@ -16,14 +17,8 @@ use super::wanted::Wanted;
 use super::{Balance, LightModel, Lighting, Lit, Projection, Source};
 use crate::math::exp;
 use crate::shape::Point;
-use rayon::iter::{
-    IndexedParallelIterator, IntoParallelIterator, IntoParallelRefIterator, IntoParallelRefMutIterator,
-    ParallelIterator,
-};
+use rayon::iter::{IndexedParallelIterator, IntoParallelIterator, IntoParallelRefIterator, ParallelIterator};
 use std::borrow::Cow;
-
-/// The sources that are followed at once: each takes 16 bytes a wanted voxel.
-const AT_ONCE: usize = 8;
 
 /// The fewest plants whose leaf area a thread adds up in a grid of its own.
 const FEWEST_PLANTS: usize = 16;
@@ -103,20 +98,13 @@ impl Field {
     /// Of the wanted voxels the light and what they keep; what becomes of all light.
     fn lit(&self) -> (Vec<f64>, Vec<f64>, Balance) {
         let (wanted, shadows) = (&self.wanted, self.shadows());
-        let even = wanted.indices().map(|index| self.extinction(index, None)).collect::<Vec<f64>>();
-        let mut sums = vec![[0.0; 2]; wanted.count()];
-        let mut balance = Balance::default();
-        // The memory of some sources goes on to the next ones, so that the system need not clear it anew.
-        let mut rooms = vec![Along::new(); AT_ONCE.min(self.sources.len())];
-        for some in self.sources.chunks(AT_ONCE) {
-            let one = |(source, room): (&Source, &mut Along)| {
-                self.shone(wanted, &even, &shadows, source, std::mem::take(room))
-            };
-            let shone: Vec<Shone> = some.par_iter().zip(&mut rooms).with_max_len(1).map(one).collect();
-            balance = add(&mut sums, balance, some, &shone);
-            rooms.iter_mut().zip(shone).for_each(|(room, shone)| *room = shone.along);
-        }
-        let (light, kept) = sums.into_iter().map(|[share, lost]| (share.min(1.0), lost)).unzip();
+        let indices = wanted.indices().par_iter().with_min_len(FEWEST_VOXELS);
+        let even: Vec<f64> = indices.map(|index| self.extinction(*index as usize, None)).collect();
+        let one = |source: &Source, room: Along| self.shone(wanted, &even, &shadows, source, room);
+        let (sums, balance) = added::sums(&self.sources, wanted.count(), one);
+        let parts = sums.into_par_iter().with_min_len(FEWEST_VOXELS).map(|[share, lost]| (share.min(1.0), lost));
+        let (mut light, mut kept) = (Vec::new(), Vec::new());
+        parts.unzip_into_vecs(&mut light, &mut kept);
         (light, kept, balance)
     }
 
@@ -126,7 +114,7 @@ impl Field {
             Projection::Even(_) => even.into(),
             Projection::OfLeaves => {
                 let met = self.met(source.towards);
-                wanted.indices().map(|index| self.extinction(index, met.as_ref())).collect()
+                wanted.indices().iter().map(|index| self.extinction(*index as usize, met.as_ref())).collect()
             }
         };
         let mut shone = if self.grid.repeats() || !shadows.is_empty() {
@@ -136,7 +124,7 @@ impl Field {
         };
         let missed = shone.along.iter_mut().zip(wanted.indices()).filter(|(sums, _)| sums[1] == 0.0);
         for (sums, index) in missed {
-            let middle = Spot { voxel: self.voxel_of(index), inner: [0.5; 3] };
+            let middle = Spot { voxel: self.voxel_of(*index as usize), inner: [0.5; 3] };
             *sums = [self.share_of(shadows, middle, source) * NO_WAY, NO_WAY];
         }
         for (sums, k) in shone.along.iter_mut().zip(&*extinction) {
@@ -206,26 +194,6 @@ impl Field {
         let sums: Vec<f64> = self.sources.par_iter().map(one).collect();
         sums.iter().sum::<f64>() / f64::from(count * count)
     }
-}
-
-/// Adds the light of sources to the sums of the wanted voxels, in their order in each, and what becomes of it.
-fn add(sums: &mut [[f64; 2]], balance: Balance, sources: &[Source], shone: &[Shone]) -> Balance {
-    // Light across a beam of 1 m² falls on 1/sine m² of level ground.
-    let on_ground = |source: &Source| source.weight / source.towards[2];
-    let scale = |(source, shone): (&Source, &Shone)| (source.weight, on_ground(source) * shone.section);
-    let scales: Vec<(f64, f64)> = sources.iter().zip(shone).map(scale).collect();
-    sums.par_iter_mut().enumerate().with_min_len(FEWEST_VOXELS).for_each(|(voxel, [light, kept])| {
-        for (shone, (of_light, of_kept)) in shone.iter().zip(&scales) {
-            let [share, lost] = shone.along[voxel];
-            *light += of_light * share;
-            *kept += of_kept * lost;
-        }
-    });
-    sources.iter().zip(shone).fold(balance, |balance, (source, shone)| {
-        let Balance { sent, kept, stopped, passed } = shone.balance;
-        let [sent, kept, stopped, passed] = [sent, kept, stopped, passed].map(|of| of * on_ground(source));
-        balance.with(Balance { sent, kept, stopped, passed })
-    })
 }
 
 impl Lit for Field {

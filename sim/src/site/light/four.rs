@@ -15,10 +15,18 @@ type Four = [f64; 4];
 /// each edge that it lies aside, and above; and half the way between each pair of faces; metres.
 pub type Faces = [[f64; 3]; 3];
 
-/// The ways of four beams in a voxel, metres, that lie so far aside from its middle and above it.
+/// The ways in a voxel, metres, of four beams, each by its place: the first two and the others, a row each, lie so far
+/// aside from its middle and above it.
 #[inline]
 #[target_feature(enable = "avx2")]
-fn ways(faces: &Faces, aside: __m256d, above: __m256d) -> __m256d {
+pub fn ways(faces: &Faces, at: [[f64; 2]; 4], [aside, above]: [[f64; 2]; 2]) -> Four {
+    // Two beams of one place each, then their parts apart: the first beams of both rows, and the second ones.
+    let two = |at: [f64; 2]| _mm_set_pd(at[1], at[0]);
+    let (first, second) = (_mm256_set_m128d(two(at[2]), two(at[0])), _mm256_set_m128d(two(at[3]), two(at[1])));
+    let from = _mm256_set_pd(aside[1] + 1.0, aside[1], aside[0] + 1.0, aside[0]);
+    let aside = _mm256_add_pd(_mm256_unpacklo_pd(first, second), from);
+    let from = _mm256_set_pd(above[1], above[1], above[0], above[0]);
+    let above = _mm256_add_pd(_mm256_unpackhi_pd(first, second), from);
     let stretch = |[by_aside, by_above, half]: [f64; 3]| {
         let middle = _mm256_add_pd(
             _mm256_mul_pd(aside, _mm256_set1_pd(by_aside)),
@@ -30,7 +38,14 @@ fn ways(faces: &Faces, aside: __m256d, above: __m256d) -> __m256d {
     let [(a, d), (b, e), (c, f)] = [stretch(faces[0]), stretch(faces[1]), stretch(faces[2])];
     let enters = _mm256_max_pd(_mm256_max_pd(a, b), c);
     let leaves = _mm256_min_pd(_mm256_min_pd(d, e), f);
-    _mm256_max_pd(_mm256_sub_pd(leaves, enters), _mm256_setzero_pd())
+    cast(_mm256_max_pd(_mm256_sub_pd(leaves, enters), _mm256_setzero_pd()))
+}
+
+/// The shares that are lost of four beams on ways through this extinction.
+#[inline]
+#[target_feature(enable = "avx2")]
+pub fn lost_on(ways: Four, k: f64) -> Four {
+    cast(lost_of(_mm256_mul_pd(cast(ways), _mm256_set1_pd(k))))
 }
 
 /// What is lost of four beams on ways through x.
@@ -55,27 +70,16 @@ fn lost_of(x: __m256d) -> __m256d {
     lost
 }
 
-/// Lets a voxel with this extinction keep of four beams, each by its place and its light, that lie so far aside and
-/// above: the sums of `Beams::cross`, and what each beam loses.
+/// Lets a voxel with this extinction keep of four beams, by the light of each, its way and the share that it loses: the
+/// sums of `Beams::cross`, and what is left of each.
 #[inline]
 #[target_feature(enable = "avx2")]
-pub fn cross(faces: &Faces, rays: [[f64; 3]; 4], [aside, above]: [[f64; 2]; 2], k: f64) -> ([f64; 2], f64, Four) {
-    // Two beams of one place each, then their parts apart: the first beams of both rows, and the second ones.
-    let at = |first: usize, second: usize| {
-        let two = |ray: [f64; 3]| _mm_set_pd(ray[1], ray[0]);
-        _mm256_set_m128d(two(rays[second]), two(rays[first]))
-    };
-    let (first, second) = (at(0, 2), at(1, 3));
-    let light = _mm256_set_pd(rays[3][2], rays[2][2], rays[1][2], rays[0][2]);
-    let from = _mm256_set_pd(aside[1] + 1.0, aside[1], aside[0] + 1.0, aside[0]);
-    let aside = _mm256_add_pd(_mm256_unpacklo_pd(first, second), from);
-    let from = _mm256_set_pd(above[1], above[1], above[0], above[0]);
-    let above = _mm256_add_pd(_mm256_unpackhi_pd(first, second), from);
-    let ways = ways(faces, aside, above);
+pub fn leave(light: Four, ways: Four, lost: Four, k: f64) -> ([f64; 2], f64, Four) {
+    let (light, ways): (__m256d, __m256d) = (cast(light), cast(ways));
     if k <= 0.0 {
         return ([sum(_mm256_mul_pd(ways, light)), sum(ways)], 0.0, [0.0; 4]);
     }
-    let lost = _mm256_mul_pd(light, lost_of(_mm256_mul_pd(ways, _mm256_set1_pd(k))));
+    let lost = _mm256_mul_pd(light, cast(lost));
     let all = sum(lost);
     ([all / k, sum(ways)], all, cast(_mm256_sub_pd(light, lost)))
 }

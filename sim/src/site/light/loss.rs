@@ -69,6 +69,18 @@ pub fn times(one: Pair, other: Pair) -> Pair {
     [one[0] * other[0], one[1] * other[1]]
 }
 
+/// The larger numbers of two pairs.
+#[inline(always)]
+pub fn larger_of(one: Pair, other: Pair) -> Pair {
+    [0, 1].map(|lane| if one[lane] > other[lane] { one[lane] } else { other[lane] })
+}
+
+/// The smaller numbers of two pairs.
+#[inline(always)]
+pub fn smaller_of(one: Pair, other: Pair) -> Pair {
+    [0, 1].map(|lane| if one[lane] < other[lane] { one[lane] } else { other[lane] })
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

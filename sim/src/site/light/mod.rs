@@ -11,6 +11,7 @@
 //! Light is told as a share of that on open, level ground; amounts are m² of open ground that would catch as much.
 //! Absent: light that leaves scatter, colours of light, photosynthesis.
 
+mod added;
 pub mod beam;
 pub mod canopy;
 mod counted;

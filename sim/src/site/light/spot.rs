@@ -59,12 +59,21 @@ impl Grid {
     }
 }
 
+/// The largest number below ½: what lies just below a half stays below.
+const HALF: f64 = 0.499_999_999_999_999_94;
+
 /// The nearest whole number, the farther from 0 of two; for less than 2⁵². Without the call that `round` is on machines
 /// that have no instruction for it.
 #[inline(always)]
 pub(super) fn rounded(number: f64) -> f64 {
-    // The largest number below ½: what lies just below a half stays below.
-    (number + 0.499_999_999_999_999_94_f64.copysign(number)) as i64 as f64
+    (number + HALF.copysign(number)) as i64 as f64
+}
+
+/// The same, for machines that have an instruction for numbers without their parts.
+#[cfg(any(test, target_arch = "x86_64"))]
+#[inline(always)]
+pub(super) fn rounded_by_instruction(number: f64) -> f64 {
+    (number + HALF.copysign(number)).trunc()
 }
 
 #[cfg(test)]
@@ -73,10 +82,12 @@ mod tests {
 
     #[test]
     fn whole_numbers_are_the_nearest() {
-        let near = [0.0, 0.3, 0.499_999_999_999_999_94, 0.5, 0.500_000_000_000_000_1, 0.7, 1.0];
+        let near = [0.0_f64, 0.3, 0.499_999_999_999_999_94, 0.5, 0.500_000_000_000_000_1, 0.7, 1.0];
         for whole in [0.0, 1.0, 2.0, 3.0, 1e6 + 1.0, 1e12, 8_796_093_022_207.0] {
             for number in near.map(|near| whole + near) {
-                assert_eq!((rounded(number), rounded(-number)), (number.round(), -number.round()), "{number}");
+                let round = (number.round(), -number.round());
+                assert_eq!((rounded(number), rounded(-number)), round, "{number}");
+                assert_eq!((rounded_by_instruction(number), rounded_by_instruction(-number)), round, "{number}");
             }
         }
         assert_eq!(rounded(f64::NAN), 0.0);

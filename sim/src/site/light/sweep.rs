@@ -13,10 +13,12 @@ use super::beam::{Along, Shone};
 use super::four;
 use super::grid::{BITS, EDGE, Grid};
 use super::lattice::{across, shift_of};
-use super::loss::{Pair, lost_of_each, plus, times};
+use super::loss::{Pair, larger_of, lost_of_each, plus, smaller_of, times};
+#[cfg(target_arch = "x86_64")]
+use super::spot::rounded_by_instruction;
 use super::spot::{FINE, rounded};
 use super::tiles::{TILE, Tiles};
-use super::wanted::Wanted;
+use super::wanted::{Brick, Wanted};
 use super::{Balance, Source};
 use crate::shape::Point;
 
@@ -26,10 +28,13 @@ const SIDE: usize = 1 << TILE;
 const ABOUT: usize = 4;
 /// The beams along an edge about a brick.
 const BEAMS: usize = ABOUT * SIDE;
+/// The voxels of which all is found that does not depend on the light of beams, before any keeps of it.
+#[cfg(target_arch = "x86_64")]
+const AT_ONCE: usize = 64;
 /// A number so small that what is divided by it lies beyond all voxels.
 const LEVEL: f64 = 1e-12;
 
-/// The places of voxels along an edge of a brick.
+/// The places of voxels along an edge of a brick, and of beams along that of a tile.
 const PLACES: [f64; EDGE as usize] = [0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0];
 
 /// One beam.
@@ -71,6 +76,21 @@ struct Row {
     ways: Pair,
 }
 
+/// A voxel and the four beams that may cross it.
+#[cfg(target_arch = "x86_64")]
+#[derive(Clone, Copy, Default)]
+struct Met {
+    number: usize,
+    /// The extinction in it, 1/m.
+    k: f64,
+    /// The places of the beams among all.
+    places: [usize; 4],
+    /// Their ways in it, metres.
+    ways: [f64; 4],
+    /// The shares of them that are lost there, if any are.
+    lost: [f64; 4],
+}
+
 /// The beams about the voxels of one brick.
 struct About {
     /// The first beam of each tile, in rows.
@@ -95,14 +115,26 @@ pub fn shine(grid: &Grid, wanted: &Wanted, extinction: &[f64], source: &Source, 
 
 /// By the registers of any machine.
 pub(super) fn shine_by_pairs(grid: &Grid, wanted: &Wanted, extinction: &[f64], source: &Source, room: Along) -> Shone {
-    shine_by((grid, wanted, extinction), source, room, |beams, about, voxel, k| beams.cross(about, voxel, k))
+    let through = |beams: &mut Beams, about: &About, brick: Brick, along: &mut Along, kept: &mut f64| {
+        for &entry in brick.voxels {
+            let (voxel, number) = brick.voxel(entry);
+            let (sums, lost) = beams.cross(about, voxel, extinction[number]);
+            along[number] = sums;
+            *kept += lost;
+        }
+    };
+    shine_by((grid, wanted, extinction), source, room, (through, rounded))
 }
 
 /// The same, by registers of four numbers.
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx2")]
 fn shine_by_fours(grid: &Grid, wanted: &Wanted, extinction: &[f64], source: &Source, room: Along) -> Shone {
-    shine_by((grid, wanted, extinction), source, room, |beams, about, voxel, k| beams.cross_by_fours(about, voxel, k))
+    let mut met = [Met::default(); AT_ONCE];
+    let through = |beams: &mut Beams, about: &About, brick: Brick, along: &mut Along, kept: &mut f64| {
+        beams.go_through(about, (brick, extinction), &mut met, along, kept);
+    };
+    shine_by((grid, wanted, extinction), source, room, (through, rounded_by_instruction))
 }
 
 #[inline(always)]
@@ -110,7 +142,7 @@ fn shine_by(
     (grid, wanted, extinction): (&Grid, &Wanted, &[f64]),
     source: &Source,
     mut along: Along,
-    cross: impl Fn(&mut Beams, &About, [usize; 3], f64) -> (Pair, f64),
+    (mut through, whole): (impl FnMut(&mut Beams, &About, Brick, &mut Along, &mut f64), impl Fn(f64) -> f64 + Copy),
 ) -> Shone {
     let edge = grid.edges[0];
     let mut beams = Beams::of(source, grid);
@@ -120,12 +152,8 @@ fn shine_by(
     let mut kept = 0.0;
     for &brick in wanted.order(way) {
         let Some(filled) = wanted.box_of(brick as usize) else { continue };
-        let about = beams.about(grid.bricks[brick as usize], filled);
-        wanted.each_of(brick as usize, way, |voxel, number| {
-            let (sums, lost) = cross(&mut beams, &about, voxel, extinction[number]);
-            along[number] = sums;
-            kept += lost;
-        });
+        let about = beams.about(grid.bricks[brick as usize], filled, whole);
+        through(&mut beams, &about, wanted.brick(brick as usize, way), &mut along, &mut kept);
     }
     let section = edge * edge;
     let (sent, passed) = beams.sent_and_passed();
@@ -188,14 +216,21 @@ impl Beams {
         (sent.len() as f64, sent.iter().map(|ray| ray.light).sum())
     }
 
-    /// The beams about the voxels of a brick in a box.
-    fn about(&mut self, brick: [i32; 3], filled: [[u8; 3]; 2]) -> About {
+    /// The beams about the voxels of a brick in a box. `whole` is the nearest whole number.
+    #[inline(always)]
+    fn about(&mut self, brick: [i32; 3], filled: [[u8; 3]; 2], whole: impl Fn(f64) -> f64 + Copy) -> About {
         let first = brick.map(|place| f64::from(place << BITS) + 0.5);
         let seen = self.view.seen(first);
         let [[left, low], [right, high]] = self.view.tiles(seen, filled.map(|corner| corner.map(f64::from)));
         let (mut tiles, mut shifts) = ([0; ABOUT * ABOUT], [0.0; BEAMS]);
         for (row, tiles) in (low..=high).zip(tiles.chunks_exact_mut(ABOUT)) {
-            (left..=right).zip(tiles).for_each(|(column, tile)| *tile = self.tile([column, row]) << (2 * TILE));
+            (left..=right).zip(tiles).for_each(|(column, tile)| {
+                let (number, is_new) = self.tiles.number([column, row]);
+                if is_new {
+                    self.add_tile([column, row], whole);
+                }
+                *tile = number << (2 * TILE);
+            });
         }
         let rows = ((high - low + 1) << TILE) as usize;
         self.tiles.shifts(low, &mut shifts[..rows.min(BEAMS)]);
@@ -203,27 +238,29 @@ impl Beams {
         About { tiles, middle, shifts }
     }
 
-    /// The number of a tile, which is made if need be.
-    #[inline]
-    fn tile(&mut self, place: [i64; 2]) -> u32 {
-        let (number, is_new) = self.tiles.number(place);
-        if is_new {
-            self.add_tile(place);
-        }
-        number
-    }
-
-    /// The beams of a tile of the lattice. They begin at places that are rounded as all places are.
-    fn add_tile(&mut self, place: [i64; 2]) {
+    /// The beams of a tile of the lattice, eight of a row at once. They begin at places that are rounded as all places
+    /// are.
+    #[inline(always)]
+    fn add_tile(&mut self, place: [i64; 2], whole: impl Fn(f64) -> f64) {
         let [left, low] = place.map(|place| place << TILE);
+        let [level, upward] = self.view.axes;
         for row in low..low + SIDE as i64 {
             let (v, shift) = (row as f64 + 0.5, 0.5 + shift_of(row));
-            for column in left..left + SIDE as i64 {
-                let u = column as f64 + shift;
-                let begins = [0, 1, 2].map(|k| self.view.axes[0][k] * u + self.view.axes[1][k] * v);
-                let off = self.view.seen(begins.map(|exact| rounded(exact * FINE) / FINE - exact));
-                self.rays.push(Ray { at: plus([shift, 0.5], off), light: 1.0 });
+            // Loops in place of closures, so that registers of many numbers are used where the caller has them.
+            let (mut aside, mut above) = ([0.0; SIDE], [0.0; SIDE]);
+            for (along_level, along_upward) in level.into_iter().zip(upward) {
+                for ((aside, above), column) in aside.iter_mut().zip(&mut above).zip(PLACES) {
+                    let begins = along_level * ((left as f64 + column) + shift) + along_upward * v;
+                    let off = whole(begins * FINE) / FINE - begins;
+                    *aside += along_level * off;
+                    *above += along_upward * off;
+                }
             }
+            let mut rays = [Ray { at: [0.0; 2], light: 1.0 }; SIDE];
+            for (ray, (aside, above)) in rays.iter_mut().zip(aside.into_iter().zip(above)) {
+                ray.at = [shift + aside, 0.5 + above];
+            }
+            self.rays.extend_from_slice(&rays);
         }
     }
 
@@ -256,12 +293,49 @@ impl Beams {
         ([lost / k, of_ways], lost)
     }
 
-    /// As [`Beams::cross`], by registers of four numbers.
+    /// Lets the voxels of a brick keep of the beams as [`Beams::cross`] does, by registers of four numbers. What does
+    /// not depend on the light of beams is found before, for many voxels: none waits for the one before it.
     #[cfg(target_arch = "x86_64")]
     #[inline]
     #[target_feature(enable = "avx2")]
-    fn cross_by_fours(&mut self, about: &About, voxel: [usize; 3], k: f64) -> (Pair, f64) {
-        let View { axes: [level, upward], half, faces } = &self.view;
+    fn go_through(
+        &mut self,
+        about: &About,
+        (brick, extinction): (Brick, &[f64]),
+        met: &mut [Met; AT_ONCE],
+        along: &mut Along,
+        kept: &mut f64,
+    ) {
+        for entries in brick.voxels.chunks(AT_ONCE) {
+            let met = &mut met[..entries.len()];
+            for (met, &entry) in met.iter_mut().zip(entries) {
+                let (voxel, number) = brick.voxel(entry);
+                let (places, aside) = self.places(about, voxel);
+                let at = |lane: usize| self.rays[places[lane]].at;
+                let ways = four::ways(&self.view.faces, [at(0), at(1), at(2), at(3)], aside);
+                *met = Met { number, k: extinction[number], places, ways, lost: ways };
+            }
+            for met in &mut *met {
+                met.lost = four::lost_on(met.ways, met.k);
+            }
+            for Met { number, k, places, ways, lost } in &*met {
+                let light = |lane: usize| self.rays[places[lane]].light;
+                let light = [light(0), light(1), light(2), light(3)];
+                let (sums, lost, left) = four::leave(light, *ways, *lost, *k);
+                if *k > 0.0 {
+                    (0..4).for_each(|lane| self.rays[places[lane]].light = left[lane]);
+                }
+                along[*number] = sums;
+                *kept += lost;
+            }
+        }
+    }
+
+    /// The places of the four beams that may meet a voxel; how far their rows lie aside from its middle, and above it.
+    #[cfg(target_arch = "x86_64")]
+    #[inline(always)]
+    fn places(&self, about: &About, voxel: [usize; 3]) -> ([usize; 4], [Pair; 2]) {
+        let View { axes: [level, upward], half, .. } = &self.view;
         let [x, y, z] = voxel.map(|place| PLACES[place % PLACES.len()]);
         let u = (about.middle[0] + (level[1] * y + level[2] * z)) + level[0] * x;
         let v = (about.middle[1] + (upward[1] * y + upward[2] * z)) + upward[0] * x;
@@ -270,16 +344,7 @@ impl Beams {
         let (second, other) = nearest(u - half[0] - about.shifts[(row + 1) % BEAMS]);
         let places = [(row, one), (row, one + 1), (row + 1, other), (row + 1, other + 1)];
         let places = places.map(|(row, column)| about.place(row, column));
-        let rays = places.map(|place| {
-            let Ray { at: [aside, above], light } = self.rays[place];
-            [aside, above, light]
-        });
-        let aside = [[first - u, second - u], [above - v, above + 1.0 - v]];
-        let (sums, lost, left) = four::cross(faces, rays, aside, k);
-        if k > 0.0 {
-            (0..4).for_each(|lane| self.rays[places[lane]].light = left[lane]);
-        }
-        (sums, lost)
+        (places, [[first - u, second - u], [above - v, above + 1.0 - v]])
     }
 
     /// The two beams of a row that may meet the voxel whose middle is seen at `u`, so far below the row.
@@ -305,8 +370,8 @@ impl View {
             (plus(middle, [-half; 2]), plus(middle, [half; 2]))
         };
         let [(a, d), (b, e), (c, f)] = self.faces.map(stretch);
-        let (enters, leaves) = (larger(larger(a, b), c), smaller(smaller(d, e), f));
-        larger([leaves[0] - enters[0], leaves[1] - enters[1]], [0.0; 2])
+        let (enters, leaves) = (larger_of(larger_of(a, b), c), smaller_of(smaller_of(d, e), f));
+        larger_of([leaves[0] - enters[0], leaves[1] - enters[1]], [0.0; 2])
     }
 }
 
@@ -327,14 +392,4 @@ fn nearest(number: f64) -> (f64, usize) {
     const WHOLE: f64 = 4_503_599_627_370_496.0;
     let sum = number + WHOLE;
     (sum - WHOLE, sum.to_bits() as usize & (2 * BEAMS - 1))
-}
-
-#[inline(always)]
-fn larger(one: Pair, other: Pair) -> Pair {
-    [0, 1].map(|lane| if one[lane] > other[lane] { one[lane] } else { other[lane] })
-}
-
-#[inline(always)]
-fn smaller(one: Pair, other: Pair) -> Pair {
-    [0, 1].map(|lane| if one[lane] < other[lane] { one[lane] } else { other[lane] })
 }

@@ -31,7 +31,8 @@ fn voxels_find_what_beams_leave_in_them() {
     let grid = grid(&lighting);
     let wanted = Wanted::of(&grid);
     let of_unit = 0.5 / super::grid::UNITS / grid.volume();
-    let extinction: Vec<f64> = wanted.indices().map(|index| grid.area[index] as f64 * of_unit).collect();
+    let extinction: Vec<f64> =
+        wanted.indices().iter().map(|index| grid.area[*index as usize] as f64 * of_unit).collect();
     let shadows = Shadows::of(&[], Borders::Open, [0.0; 3]);
     let mut sources = Sky { rings: 4, azimuths: 7, ..Sky::default() }.sources();
     for towards in [[0.0, 0.0, 1.0], [0.8, 0.0, 0.6], [0.0, -0.8, 0.6]] {

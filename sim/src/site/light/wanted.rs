@@ -1,16 +1,20 @@
 //! The voxels whose light is wanted, numbered one after another: light is found, and memory taken, for these alone.
 //!
-//! Also the orders in which a source lights bricks: none meets a brick before those that lie in front of it. Absent:
-//! which voxels are wanted (`grid`), light.
+//! Also the orders in which a source lights bricks, and the voxels of each: it meets none before those that lie in
+//! front of it. Absent: which voxels are wanted (`grid`), light.
 
 use super::grid::{BITS, EDGE, Grid, VOXELS};
 use crate::shape::Point;
-use rayon::iter::{IndexedParallelIterator, IntoParallelIterator, ParallelIterator};
+use rayon::iter::{IndexedParallelIterator, IntoParallelIterator, IntoParallelRefIterator, ParallelIterator};
 
 /// The rows of voxels along X in a brick.
 pub const ROWS: usize = VOXELS / EDGE as usize;
 /// The fewest rows that a thread looks through.
 const FEWEST_ROWS: usize = 16_384;
+/// The bits of the place of a voxel in its brick.
+const INNER: u32 = 3 * BITS;
+/// Whether light goes down along X and along Y, in the order in which the orders of voxels are kept.
+const WAYS: [[bool; 2]; 4] = [[false, false], [true, false], [false, true], [true, true]];
 
 /// The voxels of a grid that have leaves or are marked.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -23,8 +27,17 @@ pub struct Wanted {
     indices: Vec<u32>,
     /// Of each brick the least and the largest places of those in it.
     boxes: Vec<[[u8; 3]; 2]>,
-    /// The bricks in the orders of light that goes down and, along X and along Y, up or down.
-    orders: [Vec<u32>; 4],
+    /// The orders of light that goes down and, along X and along Y, up or down.
+    orders: [Order; 4],
+}
+
+/// An order in which light meets bricks and voxels.
+#[derive(Debug, Clone, Default, PartialEq)]
+struct Order {
+    bricks: Vec<u32>,
+    /// The wanted voxels of each brick, brick by brick as bricks are numbered: the place in the brick, and above it how
+    /// many wanted voxels of the brick have a lower number.
+    voxels: Vec<u32>,
 }
 
 impl Wanted {
@@ -44,16 +57,39 @@ impl Wanted {
             }
         }
         wanted.boxes = wanted.rows.chunks_exact(ROWS).map(box_of).collect();
-        wanted.orders = [[false, false], [true, false], [false, true], [true, true]].map(|[x, y]| {
-            let mut order: Vec<u32> = (0..grid.bricks.len() as u32).collect();
-            let turned = |place: i32, falls: bool| if falls { !place } else { place };
-            order.sort_unstable_by_key(|&brick| {
-                let place = grid.bricks[brick as usize];
-                [turned(place[0], x), turned(place[1], y), !place[2]]
-            });
-            order
-        });
+        let orders: Vec<Order> = WAYS.par_iter().map(|falls| wanted.order_of(grid, *falls)).collect();
+        orders.into_iter().zip(&mut wanted.orders).for_each(|(order, of)| *of = order);
         wanted
+    }
+
+    /// The order of light that goes down and, along X and along Y, falls or rises.
+    fn order_of(&self, grid: &Grid, falls: [bool; 2]) -> Order {
+        let mut bricks: Vec<u32> = (0..grid.bricks.len() as u32).collect();
+        let turned = |place: i32, falls: bool| if falls { !place } else { place };
+        bricks.sort_unstable_by_key(|&brick| {
+            let place = grid.bricks[brick as usize];
+            [turned(place[0], falls[0]), turned(place[1], falls[1]), !place[2]]
+        });
+        let mut voxels = Vec::with_capacity(self.count());
+        for brick in 0..grid.bricks.len() {
+            let first = self.first[brick * ROWS];
+            for z in (0..EDGE as usize).rev() {
+                for row in 0..EDGE as usize {
+                    let y = if falls[1] { EDGE as usize - 1 - row } else { row };
+                    let row = (z << BITS) | y;
+                    let mut bits = u32::from(self.rows[brick * ROWS + row]);
+                    let from = self.first[brick * ROWS + row] - first;
+                    let all = bits;
+                    while bits != 0 {
+                        let x = if falls[0] { 31 - bits.leading_zeros() } else { bits.trailing_zeros() };
+                        bits ^= 1 << x;
+                        let number = from + (all & ((1 << x) - 1)).count_ones();
+                        voxels.push(number << INNER | (row as u32) << BITS | x);
+                    }
+                }
+            }
+        }
+        Order { bricks, voxels }
     }
 
     /// Their count.
@@ -70,8 +106,8 @@ impl Wanted {
     }
 
     /// Their indices in the grid, in the order of their numbers.
-    pub fn indices(&self) -> impl Iterator<Item = usize> {
-        self.indices.iter().map(|index| *index as usize)
+    pub fn indices(&self) -> &[u32] {
+        &self.indices
     }
 
     /// The least and the largest places of the wanted voxels of a brick, in the brick; `None` where there are none.
@@ -81,34 +117,37 @@ impl Wanted {
 
     /// The bricks, in an order in which light along a way that goes down meets them.
     pub fn order(&self, way: Point) -> &[u32] {
+        &self.along(way).bricks
+    }
+
+    fn along(&self, way: Point) -> &Order {
         &self.orders[usize::from(way[0] < 0.0) | (usize::from(way[1] < 0.0) << 1)]
     }
 
-    /// Shows the wanted voxels of a brick in an order in which light along a way that goes down meets them: their
-    /// places in the brick, and their numbers.
+    /// The wanted voxels of a brick in an order in which light along a way that goes down meets them.
+    #[inline]
+    pub fn brick(&self, brick: usize, way: Point) -> Brick<'_> {
+        let first = self.first[brick * ROWS] as usize;
+        let end = self.first.get((brick + 1) * ROWS).map_or(self.indices.len(), |end| *end as usize);
+        Brick { first, voxels: &self.along(way).voxels[first..end] }
+    }
+}
+
+/// The wanted voxels of a brick in some order.
+#[derive(Debug, Clone, Copy)]
+pub struct Brick<'a> {
+    /// The number of the first.
+    first: usize,
+    /// Each of them, to be asked by [`Brick::voxel`].
+    pub voxels: &'a [u32],
+}
+
+impl Brick<'_> {
+    /// The place of a voxel in the brick, and its number.
     #[inline(always)]
-    pub fn each_of(&self, brick: usize, way: Point, mut show: impl FnMut([usize; 3], usize)) {
-        let falls = [way[0] < 0.0, way[1] < 0.0];
-        for z in (0..EDGE as usize).rev() {
-            for row in 0..EDGE as usize {
-                let y = if falls[1] { EDGE as usize - 1 - row } else { row };
-                let row = brick * ROWS + ((z << BITS) | y);
-                let mut bits = u32::from(self.rows[row]);
-                let [mut from, mut to] =
-                    [self.first[row] as usize, self.first[row] as usize + bits.count_ones() as usize];
-                while bits != 0 {
-                    let (x, number) = if falls[0] {
-                        to -= 1;
-                        (31 - bits.leading_zeros(), to)
-                    } else {
-                        from += 1;
-                        (bits.trailing_zeros(), from - 1)
-                    };
-                    bits ^= 1 << x;
-                    show([x as usize, y, z], number);
-                }
-            }
-        }
+    pub fn voxel(&self, entry: u32) -> ([usize; 3], usize) {
+        let inner = |axis: u32| (entry >> (axis * BITS)) as usize & (EDGE as usize - 1);
+        ([inner(0), inner(1), inner(2)], self.first + (entry >> INNER) as usize)
     }
 }
 
@@ -143,7 +182,7 @@ mod tests {
         grid.sort();
         let wanted = Wanted::of(&grid);
         let known: Vec<usize> = (0..grid.area.len()).filter(|index| grid.is_wanted(*index)).collect();
-        assert_eq!(wanted.indices().collect::<Vec<_>>(), known);
+        assert!(wanted.indices().iter().map(|index| *index as usize).eq(known.iter().copied()));
         assert_eq!(wanted.count(), known.len());
         for index in 0..grid.area.len() {
             assert_eq!(wanted.number(index), known.iter().position(|known| *known == index));
@@ -152,9 +191,11 @@ mod tests {
             let mut shown: Vec<([i32; 3], usize)> = Vec::new();
             for &brick in wanted.order(way) {
                 let place = grid.bricks[brick as usize];
-                wanted.each_of(brick as usize, way, |inner, number| {
+                let of_brick = wanted.brick(brick as usize, way);
+                for &entry in of_brick.voxels {
+                    let (inner, number) = of_brick.voxel(entry);
                     shown.push(([0, 1, 2].map(|k| place[k] * EDGE + inner[k] as i32), number));
-                });
+                }
             }
             for (voxel, number) in &shown {
                 assert_eq!(grid.index(*voxel), Some(known[*number]));
