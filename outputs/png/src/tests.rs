@@ -10,7 +10,7 @@ const SIZE: [u32; 2] = [61, 40];
 fn pixels() -> Vec<u8> {
     let [width, height] = SIZE;
     let channel =
-        |x: u32, y: u32, c: u32| if (x / 9 + y / 7) % 2 == 0 { 3 * x + 2 * y + 40 * c } else { x * x + 5 * y };
+        |x: u32, y: u32, c: u32| if (x / 9 + y / 7).is_multiple_of(2) { 3 * x + 2 * y + 40 * c } else { x * x + 5 * y };
     (0..height).flat_map(|y| (0..width).flat_map(move |x| (0..3).map(move |c| channel(x, y, c) as u8))).collect()
 }
 
