@@ -125,7 +125,7 @@ fn classes_of_proportions_are_steps_of_the_root_of_two() {
     assert_eq!((unseen, class([0.0, 1.0])), ([0; 3], CLASSES - 1));
 }
 
-/// However many corners its parts have, a bunch is a bunch: as high and as deep as it is wide. Some forms are tried,
+/// However many corners its parts have, the form of a bunch is as high and as deep as it is wide. Some are tried,
 /// and that of the fruits of an oil palm.
 #[test]
 fn a_cluster_of_many_stays_a_cluster() {
@@ -141,7 +141,7 @@ fn a_cluster_of_many_stays_a_cluster() {
         };
         assert!(extent(1) > 0.6 && extent(2) > 0.8 * extent(1), "{form:?}: {} {}", extent(1), extent(2));
     }
-    // Sixty grains are all there.
+    // None of sixty grains is missing.
     let parts = Cluster {
         count: 60,
         form: FormName::Berry,
