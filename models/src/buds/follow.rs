@@ -1,9 +1,9 @@
 //! Whether a growth unit touches no stem, found before its nodes are made: its internodes are drawn, and the line that
 //! they take is followed.
 //!
-//! So an axis that has stems beside it, as each lateral has its bearer, still makes its nodes as in the open. Drawn
-//! again as they are made, they are the same, since draws have their places. Absent: what a bud does about a stem
-//! (`contact`).
+//! So an axis that has stems beside it, as each lateral has its bearer, still makes its nodes as in the open. When
+//! its nodes are made, its internodes are drawn again, and are the same: each draw has a fixed place in the stream.
+//! Absent: what a bud does about a stem (`contact`).
 
 use super::grow::Axis;
 use crate::law::At;

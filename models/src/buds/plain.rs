@@ -1,9 +1,9 @@
 //! Axes in the open, of an order whose steps are plain and make several nodes, that grow one after another: they go
 //! through their steps without an [`Axis`] of each, by the words where they were made, and plan their nodes.
 //!
-//! The steps are those of [`Axis::grow`], test for test. What is rare goes that way: the end of an apex, and a growth
-//! unit that fills a block. Absent: how the nodes are made (`planned`), and axes that read words at their birth, meet
-//! something, lack light or have pests.
+//! The steps are those of [`Axis::grow`], test for test. An [`Axis`] is made for what is rare: the end of an apex,
+//! and a growth unit that fills a block. Absent: how the nodes are made (`planned`), and axes that read words at
+//! their birth, meet something, lack light or have pests.
 
 use super::bud::ApicalBud;
 use super::compile::{BudModel, OrderLaws, Piece, StepTests};
@@ -27,7 +27,7 @@ struct Alike<'a> {
     age: Tick,
 }
 
-/// An axis on its way.
+/// An axis while it goes through its steps.
 struct Way {
     /// Its bud before it grows, but for its last node where nodes have been made meanwhile.
     bud: ApicalBud,
@@ -41,7 +41,7 @@ struct Way {
     due: u32,
 }
 
-/// Why an axis stops on its way.
+/// Why an axis stops before its next step.
 enum Halt {
     /// It is at the age to which it grows.
     AtAge,

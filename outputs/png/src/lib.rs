@@ -42,7 +42,8 @@ pub fn file([width, height]: [u32; 2], colour: ColorType, bytes: &[u8]) -> Resul
     Ok(out)
 }
 
-/// The encoder, set so that [`write_deflated`] finds rows filtered as for any level, and loses no time before it.
+/// The encoder with the filters that png takes at any level, and with its quickest compressor: [`write_deflated`]
+/// deflates the rows again.
 #[must_use]
 pub fn filtered<W: Write>(mut encoder: Encoder<'_, W>) -> Encoder<'_, W> {
     encoder.set_deflate_compression(DeflateCompression::FdeflateUltraFast);

@@ -1,9 +1,9 @@
 //! The light of all sources, added up in their order while they are still followed.
 //!
 //! Each thread takes the next source that nobody follows yet. What it finds waits until the sources before it are
-//! added; who hands in the one that is due adds it, and those behind it that wait. So sums are those of one thread to
-//! the last bit, no thread waits for another before the last source, and mostly one source a thread is kept in memory,
-//! 16 bytes a wanted voxel. Absent: how a source is followed (`field`).
+//! added: the thread that hands in the source which is due adds it, and the sources behind it that wait. So sums are
+//! those of one thread to the last bit, no thread waits for another before the last source, and mostly one source a
+//! thread is kept in memory, 16 bytes a wanted voxel. Absent: how a source is followed (`field`).
 
 use super::beam::{Along, Shone};
 use super::{Balance, Source};
@@ -11,7 +11,7 @@ use rayon::iter::{IndexedParallelIterator, IntoParallelIterator, ParallelIterato
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-/// Of each voxel its light and what it keeps.
+/// The sums of each voxel: its light, and the light that it keeps.
 type Sums = Vec<[f64; 2]>;
 
 /// What is added up.
@@ -20,7 +20,7 @@ struct Added {
     sums: Option<(Sums, Balance)>,
     /// The source that is added next.
     due: usize,
-    /// Of each source what was found, until it is added.
+    /// What was found of each source, until it is added.
     waiting: Vec<Option<Shone>>,
     /// Memory of sources that are added, for those to come: the system need not clear it anew.
     rooms: Vec<Along>,
