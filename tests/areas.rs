@@ -15,6 +15,7 @@ use phytomer_config::scenario::{MeshAges, MeshFile, MeshPlants, Meshes, Record, 
 use phytomer_config::{Kind, Resolved, presets, validate};
 use phytomer_outputs::read::Run;
 use phytomer_sim::{Ending, Plot, Tick, grow};
+use phytomer_triangles as triangles;
 use side_by_side::each;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -22,13 +23,6 @@ use std::path::Path;
 
 /// Larger plants are measured at an earlier age, at which they have at most so many components.
 const MOST_COMPONENTS: u32 = 6_000;
-
-/// Bytes of a vertex and of a triangle in a file, and the offset of the component's number in a vertex.
-const VERTEX: usize = 49;
-const FACE: usize = 13;
-const COMPONENT: usize = 44;
-
-type Point = [f64; 3];
 
 /// The values that the table states of a component.
 struct Stated {
@@ -85,87 +79,6 @@ fn rows(batch: &RecordBatch) -> Vec<(i32, Stated)> {
     (0..batch.num_rows()).map(row).collect()
 }
 
-/// The triangles of each component of a file. Those of a component follow one another.
-fn drawn(file: &Path) -> BTreeMap<i32, Vec<[Point; 3]>> {
-    let bytes = fs::read(file).expect("a mesh");
-    let end = b"end_header\n";
-    let start = bytes.windows(end.len()).position(|window| window == end).expect("a header") + end.len();
-    let header = String::from_utf8_lossy(&bytes[..start]).into_owned();
-    let count = |of: &str| {
-        let line = header.lines().find_map(|line| line.strip_prefix(of)).expect("a count");
-        line.trim().parse::<usize>().expect("a number")
-    };
-    let (vertices, faces) = bytes[start..].split_at(count("element vertex ") * VERTEX);
-    let four = |of: &[u8], at: usize| [of[at], of[at + 1], of[at + 2], of[at + 3]];
-    let single = |of: &[u8], at: usize| f64::from(f32::from_le_bytes(four(of, at)));
-    let vertices: Vec<(Point, i32)> = (vertices.chunks_exact(VERTEX))
-        .map(|of| ([single(of, 0), single(of, 4), single(of, 8)], i32::from_le_bytes(four(of, COMPONENT))))
-        .collect();
-    let faces = faces.chunks_exact(FACE).take(count("element face ")).map(|of| {
-        let corner = |at: usize| vertices[i32::from_le_bytes(four(of, at)) as usize];
-        (corner(1).1, [corner(1).0, corner(5).0, corner(9).0])
-    });
-    let faces: Vec<(i32, [Point; 3])> = faces.collect();
-    let mut drawn: BTreeMap<i32, Vec<[Point; 3]>> = BTreeMap::new();
-    for of_one in faces.chunk_by(|a, b| a.0 == b.0) {
-        drawn.entry(of_one[0].0).or_default().extend(of_one.iter().map(|face| face.1));
-    }
-    drawn
-}
-
-fn cross(a: Point, b: Point) -> Point {
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
-}
-
-fn minus(a: Point, b: Point) -> Point {
-    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
-}
-
-fn dot(a: Point, b: Point) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-/// Whether triangles meet in pairs of either direction at every edge. Places are numbered in the order in which they
-/// appear, so that edges are compared as numbers.
-fn is_closed(triangles: &[[Point; 3]]) -> bool {
-    let mut places: Vec<Point> = Vec::new();
-    let mut number = |point: &Point| {
-        let known =
-            places.iter().position(|place| place[0] == point[0] && place[1] == point[1] && place[2] == point[2]);
-        known.unwrap_or_else(|| {
-            places.push(*point);
-            places.len() - 1
-        })
-    };
-    let mut edges: BTreeMap<(usize, usize), i32> = BTreeMap::new();
-    for triangle in triangles {
-        let corners = [number(&triangle[0]), number(&triangle[1]), number(&triangle[2])];
-        for k in 0..3 {
-            let (from, to) = (corners[k], corners[(k + 1) % 3]);
-            *edges.entry((from.min(to), from.max(to))).or_default() += if from < to { 1 } else { -1 };
-        }
-    }
-    edges.values().all(|sum| *sum == 0)
-}
-
-fn one_side(triangles: &[[Point; 3]], closed: bool) -> f64 {
-    let area = |[a, b, c]: &[Point; 3]| {
-        let across = cross(minus(*b, *a), minus(*c, *a));
-        0.5 * dot(across, across).sqrt()
-    };
-    let surface: f64 = triangles.iter().map(area).sum();
-    if closed { 0.5 * surface } else { surface }
-}
-
-fn volume(triangles: &[[Point; 3]]) -> f64 {
-    let origin = triangles[0][0];
-    let cone = |triangle: &[Point; 3]| {
-        let [a, b, c] = triangle.map(|point| minus(point, origin));
-        dot(a, cross(b, c)) / 6.0
-    };
-    triangles.iter().map(cone).sum()
-}
-
 /// The drawn and the stated measures, by kind of component.
 #[derive(Default)]
 struct Sums {
@@ -177,7 +90,7 @@ fn sums(folder: &Path) -> Sums {
     let run = Run::open(folder).expect("a run");
     let meshes: Vec<_> =
         fs::read_dir(folder.join("meshes")).expect("meshes").map(|file| file.expect("a file").path()).collect();
-    let drawn = drawn(&meshes[0]);
+    let drawn = triangles::of_components(&fs::read(&meshes[0]).expect("a mesh"));
     let mut sums = Sums::default();
     let add = |to: &mut BTreeMap<String, [f64; 2]>, kind: &str, found: f64, stated: f64| {
         let [sum, of_table] = to.entry(kind.to_owned()).or_default();
@@ -185,13 +98,14 @@ fn sums(folder: &Path) -> Sums {
         *of_table += stated;
     };
     for (component, stated) in &stated(&run) {
-        let triangles = drawn.get(component).map_or(&[][..], Vec::as_slice);
-        let closed = is_closed(triangles);
+        let of_one = drawn.get(component).map_or(&[][..], Vec::as_slice);
+        let closed = triangles::is_closed(of_one);
         if let Some(area) = stated.area {
-            add(&mut sums.areas, &stated.kind, one_side(triangles, closed), area);
+            let one_side = if closed { 0.5 } else { 1.0 } * triangles::area(of_one);
+            add(&mut sums.areas, &stated.kind, one_side, area);
         }
-        if let Some(of_table) = stated.volume.filter(|_| closed && !triangles.is_empty()) {
-            add(&mut sums.volumes, &stated.kind, volume(triangles), of_table);
+        if let Some(of_table) = stated.volume.filter(|_| closed && !of_one.is_empty()) {
+            add(&mut sums.volumes, &stated.kind, triangles::volume(of_one), of_table);
         }
     }
     sums

@@ -8,55 +8,24 @@ mod program;
 #[path = "program/side_by_side.rs"]
 mod side_by_side;
 
-use phytomer::outputs::meshes::{Face, Joints, Mesh, MeshOptions, Scene, mesh_plant};
+use phytomer::outputs::meshes::{Joints, Mesh, MeshOptions, Scene, mesh_plant};
 use phytomer::run::regrowth::Regrowth;
 use phytomer::sim::plant::{Class, Kind as Kinds, OrganId, Plant};
 use phytomer_config::{Kind, presets, validate_species};
+use phytomer_triangles::{self as triangles, Triangle};
 use program::{program as phytomer_program, run, said};
 use side_by_side::each;
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 use std::fs;
 use tempfile::tempdir;
 
 /// The most leaves of a species that are measured at the details 2 and 3, evenly over all of them.
 const MEASURED: usize = 120;
 
-/// The area of one side: triangles of open sheets, and half of those of closed parts. Parts are joined by equal places.
-fn area(mesh: &Mesh) -> f64 {
-    let at = |corner: u32| mesh.vertices[corner as usize].position();
-    let key = |corner: u32| at(corner).map(|x| (x + 0.0).to_bits());
-    let faces: Vec<[u32; 3]> = mesh.faces.iter().map(Face::indices).collect();
-    let mut parents: Vec<usize> = (0..faces.len()).collect();
-    fn root(parents: &mut [usize], mut face: usize) -> usize {
-        while parents[face] != face {
-            parents[face] = parents[parents[face]];
-            face = parents[face];
-        }
-        face
-    }
-    let mut edges: BTreeMap<[[u32; 3]; 2], (usize, i32)> = BTreeMap::new();
-    for (face, corners) in faces.iter().enumerate() {
-        for k in 0..3 {
-            let (a, b) = (key(corners[k]), key(corners[(k + 1) % 3]));
-            let (edge, turn) = if a < b { ([a, b], 1) } else { ([b, a], -1) };
-            let (first, sum) = edges.entry(edge).or_insert((face, 0));
-            *sum += turn;
-            let (a, b) = (root(&mut parents, *first), root(&mut parents, face));
-            parents[a.max(b)] = a.min(b);
-        }
-    }
-    let mut open = vec![false; faces.len()];
-    for (face, _) in edges.into_values().filter(|(_, sum)| *sum != 0) {
-        open[root(&mut parents, face)] = true;
-    }
-    let of = |face: usize, parents: &mut [usize]| {
-        let [a, b, c] = faces[face].map(|corner| at(corner).map(f64::from));
-        let (u, v) = ([0, 1, 2].map(|k| b[k] - a[k]), [0, 1, 2].map(|k| c[k] - a[k]));
-        let normal = [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]];
-        let whole = 0.5 * normal.iter().map(|x| x * x).sum::<f64>().sqrt();
-        if open[root(parents, face)] { whole } else { 0.5 * whole }
-    };
-    (0..faces.len()).map(|face| of(face, &mut parents)).sum()
+/// The triangles of a mesh.
+fn triangles_of(mesh: &Mesh) -> Vec<Triangle> {
+    let at = |corner: u32| mesh.vertices[corner as usize].position().map(f64::from);
+    mesh.faces.iter().map(|face| face.indices().map(at)).collect()
 }
 
 /// The largest share by which a leaf is off its area, and how many were measured.
@@ -68,7 +37,7 @@ fn off(plant: &Plant, age: u32, detail: u8, most: usize) -> (f64, usize) {
     let step = leaves.len().div_ceil(most).max(1);
     let offs = leaves.iter().step_by(step).map(|organ| {
         let stated: f64 = plant.organ_area(*organ, age);
-        (area(&scene.mesh_of(*organ)) / stated - 1.0).abs()
+        (triangles::one_side(&triangles_of(&scene.mesh_of(*organ))) / stated - 1.0).abs()
     });
     let offs: Vec<f64> = offs.collect();
     (offs.iter().copied().fold(0.0, f64::max), offs.len())
@@ -285,15 +254,7 @@ fn wood(plant: &Plant, age: u32, detail: u8, joints: Joints) -> Mesh {
 /// each number is there at every detail. Welded wood keeps its frusta.
 #[test]
 fn wood_from_near_has_the_same_internodes_and_nearly_the_same_volume() {
-    let volume = |mesh: &Mesh| -> f64 {
-        let at = |corner: u32| mesh.vertices[corner as usize].position().map(f64::from);
-        let cone = |face: &Face| {
-            let [a, b, c] = face.indices().map(at);
-            let across = [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
-            (across[0] * c[0] + across[1] * c[1] + across[2] * c[2]) / 6.0
-        };
-        mesh.faces.iter().map(cone).sum()
-    };
+    let volume = |mesh: &Mesh| triangles::volume(&triangles_of(mesh));
     let numbers =
         |mesh: &Mesh| -> BTreeSet<i32> { mesh.vertices.iter().map(|vertex| vertex.tag().component).collect() };
     for (name, age, within) in [("bamboo", 24, 0.04), ("coconut", 100, 0.04), ("oil_palm", 120, 0.4)] {

@@ -1,10 +1,10 @@
-//! The same scenario gives the same bytes in every table and mesh: on any number of threads, and in debug and release.
+//! The same scenario gives the same bytes in every table and mesh: on any number of threads, and optimised or not.
 //!
 //! Known hashes (`tests/data/*.sha256`) are of a bush in its pose at rest, and of trees that bend in a wind, with the
 //! columns of mechanics. Where a change of growth or of a format is intended,
-//! `PHYTOMER_BLESS=1 cargo test --test determinism` writes new hashes. Where `PHYTOMER_RELEASE` names the program of
-//! the same sources in the release profile, that program writes the bytes of the one that is tested,
-//! pictures too.
+//! `PHYTOMER_BLESS=1 cargo test --test determinism` writes new hashes. Where `PHYTOMER_INSTALLED` names the program of
+//! the same sources in another profile (CI has that of the wheel, in the profile `plain`), that program writes the bytes of the one
+//! that is tested, pictures too.
 
 #[path = "program/absent.rs"]
 mod absent;
@@ -172,20 +172,20 @@ fn another_seed_gives_other_plants() {
     assert!(grown[0].iter().all(|(file, hash)| grown[1].get(file) != Some(hash)));
 }
 
-/// The program that is tested, and that of the same sources in the release profile.
+/// The program that is tested, and that of the same sources in another profile, with other features.
 fn both_programs() -> Option<[PathBuf; 2]> {
-    let Some(release) = std::env::var_os("PHYTOMER_RELEASE") else {
-        assert!(!absent::in_ci(), "PHYTOMER_RELEASE names no program of the release profile");
-        absent::skip("PHYTOMER_RELEASE names no program of the release profile");
+    let Some(installed) = std::env::var_os("PHYTOMER_INSTALLED") else {
+        assert!(!absent::in_ci(), "PHYTOMER_INSTALLED names no program of another profile");
+        absent::skip("PHYTOMER_INSTALLED names no program of another profile");
         return None;
     };
     // A relative path is one from the folder of the manifest; the program runs in another.
-    Some([PathBuf::from(PROGRAM), Path::new(env!("CARGO_MANIFEST_DIR")).join(release)])
+    Some([PathBuf::from(PROGRAM), Path::new(env!("CARGO_MANIFEST_DIR")).join(installed)])
 }
 
 /// The scenarios of both, so that buds, bending wood, parametric trees, a vine and an L-system are compared.
 #[test]
-fn the_release_profile_writes_the_same_bytes() {
+fn another_profile_writes_the_same_bytes() {
     let Some(programs) = both_programs() else { return };
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("cube.toml"), CUBE).unwrap();
@@ -193,7 +193,7 @@ fn the_release_profile_writes_the_same_bytes() {
     let others = [("cube.toml", "10"), ("gmt1", "5"), ("greene/vine", "5"), ("coffee", "4")];
     let others = others.map(|(name, plants)| (name.to_owned(), plants));
     for (scenario, plants) in own.into_iter().chain(others) {
-        let [tested, release] = programs.each_ref().map(|program| {
+        let [tested, installed] = programs.each_ref().map(|program| {
             let words = ["grow", &scenario, "--plants", plants, "--name", "run"];
             said(program_at(program, folder.path(), &words).output().unwrap()).ending(0);
             let run = folder.path().join("runs/run");
@@ -202,11 +202,11 @@ fn the_release_profile_writes_the_same_bytes() {
             written
         });
         assert!(!tested.is_empty(), "{scenario}");
-        assert_eq!(tested, release, "{scenario}");
+        assert_eq!(tested, installed, "{scenario}");
     }
 }
 
-/// The tests are built with other features of third-party crates than the program in the release profile
+/// The tests are built with other features of third-party crates than the program that is installed
 /// (`.ci/features`): no picture may tell, which are compressed.
 #[test]
 fn pictures_and_charts_are_the_same_in_any_build() {
@@ -229,12 +229,12 @@ fn pictures_and_charts_are_the_same_in_any_build() {
         }
         folder
     });
-    let [tested, release] = folders.each_ref().map(|folder| files(folder.path()));
+    let [tested, installed] = folders.each_ref().map(|folder| files(folder.path()));
     let ends = |end: &str| tested.keys().filter(|name| name.ends_with(end)).count();
     assert!(ends(".apng") == 1 && ends(".glb") == 1 && ends(".svg") > 1 && ends(".png") > 2, "{:?}", tested.keys());
-    assert_eq!(tested.keys().collect::<Vec<_>>(), release.keys().collect::<Vec<_>>());
+    assert_eq!(tested.keys().collect::<Vec<_>>(), installed.keys().collect::<Vec<_>>());
     for (name, hash) in &tested {
-        assert_eq!(Some(hash), release.get(name), "{name}");
+        assert_eq!(Some(hash), installed.get(name), "{name}");
     }
 }
 

@@ -71,10 +71,10 @@ fn fits(line: &str, expected: &str) -> bool {
 
 /// A folder with the names that the pages call, the program and `duckdb`, which is that of Python where there is one;
 /// and whether there is any `duckdb`.
-fn tools(folder: &Path, program: &Path) -> (PathBuf, bool) {
+fn tools(folder: &Path) -> (PathBuf, bool) {
     let tools = folder.join("tools");
     fs::create_dir(&tools).expect("a folder");
-    std::os::unix::fs::symlink(program, tools.join("phytomer")).expect("a link");
+    std::os::unix::fs::symlink(PROGRAM, tools.join("phytomer")).expect("a link");
     let python = Path::new(ROOT).join(".venv/bin/python");
     let can = |command: &mut Command| {
         command.stdout(Stdio::null()).stderr(Stdio::null()).status().is_ok_and(|end| end.success())
@@ -91,10 +91,10 @@ fn tools(folder: &Path, program: &Path) -> (PathBuf, bool) {
 }
 
 /// Runs the commands of a page one after the other in one folder.
-fn follow(page: &str, program: &Path) -> usize {
+fn follow(page: &str) -> usize {
     let text = fs::read_to_string(Path::new(ROOT).join(page)).unwrap_or_else(|error| panic!("{page}: {error}"));
     let folder = tempdir().expect("a folder");
-    let (tools, has_duckdb) = tools(folder.path(), program);
+    let (tools, has_duckdb) = tools(folder.path());
     let path = std::env::var_os("PATH").unwrap_or_default();
     let path = std::env::join_paths([tools].into_iter().chain(std::env::split_paths(&path))).expect("a path");
     let desk = folder.path().join("desk");
@@ -122,7 +122,7 @@ fn guide(name: &str) {
     let text = fs::read_to_string(Path::new(ROOT).join(&page)).expect("a page");
     let fences: Vec<&str> = text.lines().filter(|line| line.starts_with("```")).collect();
     assert!(fences.chunks(2).all(|pair| pair == ["```console", "```"]), "a block that no test runs: {fences:?}");
-    assert!(follow(&page, Path::new(PROGRAM)) >= 8, "{page} has few commands");
+    assert!(follow(&page) >= 8, "{page} has few commands");
 }
 
 #[test]
@@ -148,11 +148,9 @@ fn every_guide_has_a_test() {
     assert_eq!(names, ["agronomist.md", "artist.md", "statistician.md"]);
 }
 
-/// Two thousand trees: by the program of the release profile where `PHYTOMER_RELEASE` names it, as CI does.
 #[test]
 fn the_readme_answers_as_it_says() {
-    let release = std::env::var_os("PHYTOMER_RELEASE").map(|path| Path::new(ROOT).join(path));
-    assert!(follow("README.md", &release.unwrap_or_else(|| PathBuf::from(PROGRAM))) >= 5);
+    assert!(follow("README.md") >= 5);
 }
 
 #[test]
