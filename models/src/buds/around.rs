@@ -37,6 +37,8 @@ pub(super) struct Around<'a> {
     grown: f64,
     /// How far about the bud stems are asked beyond what one internode asks, metres.
     further: f64,
+    /// How many of the next internodes are known to touch no stem.
+    past: u32,
     /// The direction out of the surface that the bud feels at this step.
     felt: Option<[f64; 3]>,
     /// Whether there was no way for a node of this step.
@@ -83,9 +85,10 @@ impl<'a> Around<'a> {
         let (place, posed, grown) = (plant.place, (start.node, start.tip), start.grown);
         let spared = Spared { plant: plant.id, axis: axis.0 };
         let (beside, ahead, free, further) = (Beside::default(), None, 0.0, start.further);
+        let past = if solids.is_empty() { start.past } else { 0 };
         let (felt, stuck) = (None, false);
         let mut around =
-            Self { solids, stems, beside, spared, laws, place, posed, ahead, free, grown, further, felt, stuck };
+            Self { solids, stems, beside, spared, laws, place, posed, ahead, free, grown, further, past, felt, stuck };
         around.free = if solids.is_empty() { f64::INFINITY } else { around.free_about(posed.1, 0.0) - grown };
         around
     }
@@ -200,6 +203,13 @@ impl<'a> Around<'a> {
     pub fn try_next(&mut self, plant: &Plant, next: Next) -> Option<Lie> {
         let Next { length, radius, trend, left } = next;
         let axis = AxisId(self.spared.axis);
+        if self.past > 0 {
+            self.past -= 1;
+            let ahead = self.end(plant);
+            ahead.tend(plant, axis, trend);
+            ahead.grow(length);
+            return Some(Lie::Free);
+        }
         let reach = length + radius + self.held().max(CLEARANCE);
         let (far, far_from_stems) = (self.is_far(plant, reach), self.is_far_from_stems(plant, reach));
         self.free -= length;

@@ -53,18 +53,20 @@ impl<'a> Axis<'a> {
         let (plant, axis, reach) = (self.plant.id, self.bud.axis, &self.laws.reach);
         let spared = Spared { plant, axis: axis.0 };
         let length = reach.length(short, nodes);
-        let passes = |stems: &Stems| {
+        let past = |stems: &Stems| {
             // Wood of its own is beside nearly every bud.
             let has_own = stems.whose() == Whose::All && start.grown == 0.0;
             let is_far = !has_own && start.is_far(stems, length + reach.radius, spared);
-            is_far || self.passes_stems(at, (short, nodes), stems, spared)
+            if is_far { nodes } else { self.nodes_past(at, (short, nodes), stems, spared) }
         };
         let is_clear = start.is_clear_of(site.solids(), length + reach.radius.max(reach.leaf));
-        if is_clear && site.stems.as_deref().filter(|stems| !stems.is_empty()).is_none_or(passes) {
+        let stems = site.stems.as_deref().filter(|stems| !stems.is_empty());
+        let past = if is_clear { stems.map_or(nodes, past) } else { 0 };
+        if past == nodes {
             self.start = Some(start.behind(length));
             return Ok(true);
         }
-        let start = start.before(length - reach.length(short, 1));
+        let start = start.before(length - reach.length(short, 1), past);
         (self.start, self.plans) = (None, false);
         self.make_planned()?;
         self.around = Some(Box::new(Around::of(site, self.model.contact, self.plant, axis, start)));

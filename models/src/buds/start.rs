@@ -32,6 +32,8 @@ pub(super) struct Start {
     pub grown: f64,
     /// How far its growth unit may go on beyond its first internode, metres; 0 of a long one.
     pub further: f64,
+    /// How many nodes of its growth unit are known to touch no stem.
+    pub past: u32,
 }
 
 impl Start {
@@ -39,7 +41,14 @@ impl Start {
     pub fn of(plant: &Plant, axis: AxisId) -> Self {
         let base = bud_base(plant, axis);
         let tip = [0, 1, 2].map(|k| plant.place[k] + f64::from(base[k]));
-        Self { node: plant.axes.last_node[axis.index()].some(), tip, grown: 0.0, further: 0.0, free: f64::INFINITY }
+        Self {
+            node: plant.axes.last_node[axis.index()].some(),
+            tip,
+            grown: 0.0,
+            further: 0.0,
+            past: 0,
+            free: f64::INFINITY,
+        }
     }
 
     /// The same among solids; `None` where it stands in one.
@@ -67,9 +76,9 @@ impl Start {
         Self { grown: self.grown + length, ..self }
     }
 
-    /// The same before a growth unit whose nodes ask, which goes on beyond its first internode by no more than
-    /// `further`.
-    pub fn before(self, further: f64) -> Self {
-        Self { further: if further <= FURTHEST { further } else { 0.0 }, ..self }
+    /// The same before a growth unit whose nodes ask but for its first, so many of which touch no stem, and which goes
+    /// on beyond its first internode by no more than `further`.
+    pub fn before(self, further: f64, past: u32) -> Self {
+        Self { further: if further <= FURTHEST { further } else { 0.0 }, past, ..self }
     }
 }

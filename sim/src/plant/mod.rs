@@ -33,6 +33,7 @@ mod node;
 mod organ;
 mod outline;
 mod own_look;
+mod paged;
 mod partway;
 mod placed;
 pub(crate) mod placing;

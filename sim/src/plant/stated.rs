@@ -12,6 +12,7 @@ use super::Plant;
 use super::handle::{AxisId, NodeId};
 use super::joint::Joint;
 use super::node::Nodes;
+use super::paged::Paged;
 use super::rare::Rare;
 use crate::clock::Tick;
 use crate::rotation::Rotation;
@@ -71,7 +72,7 @@ pub struct StatedFrames {
 #[derive(Debug, Clone, Default, PartialEq)]
 struct Column {
     /// Unit quaternions; all 0 where none is stated.
-    turns: Rare<[f64; 4]>,
+    turns: Paged<[f64; 4]>,
     /// Directions in the frame of the plant; all 0 where none is stated.
     headings: Rare<[f32; 3]>,
     /// Offsets in the frame of the bearer, metres.

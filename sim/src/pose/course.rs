@@ -14,7 +14,7 @@ use crate::plant::frames::{Frame, Plane, Slope};
 use crate::vector::Vector;
 
 /// Below this sine of the angle to the vertical a heading has no horizontal direction of its own; that of `up` is used.
-const VERTICAL: f64 = 1e-6;
+pub(super) const VERTICAL: f64 = 1e-6;
 
 /// `frame`, turned once towards a trend.
 pub(super) fn turned(frame: Frame, trend: &Trend) -> Frame {

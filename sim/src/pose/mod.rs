@@ -21,7 +21,7 @@ use crate::plant::{AxisId, NodeId, Plant};
 use crate::vector::Vector;
 
 pub use crate::plant::frames::{Frame, Frames};
-pub use ahead::Ahead;
+pub use ahead::{Ahead, Onward};
 pub use organs::{OrganInputs, organ_follows_from, organ_frame, stated_organ_frame};
 
 /// Poses every internode of `plant` that appeared by `age` and has no frame yet. Other frames stay: the pose at rest of

@@ -156,6 +156,9 @@ impl Course for Stated {
         }
         match way.stated.rest(Part::Node(NodeId(node as u32)), way.age) {
             Rest::Follows => {
+                if let Along::Trended(trended) = &mut self.along {
+                    return trended.next(way, node, trend, begins);
+                }
                 let mut trended = self.tending();
                 let turns = trended.next(way, node, trend, begins);
                 if turns {

@@ -84,6 +84,37 @@ fn an_axis_turns_to_its_trend_without_ever_turning_back() {
 }
 
 /// An upright axis that tends to hang turns by its share, as any other axis does.
+/// The way that growth follows before nodes are there, beside that which it takes node by node: from a bud and from the
+/// last node of axes that stand upright, nearly upright, aside and hang, to trends that turn them, some through the
+/// vertical.
+#[test]
+fn an_axis_that_is_followed_onward_goes_where_it_goes_node_by_node() {
+    let trends = [trend(0.0, 0.08), trend(FRAC_PI_2, 0.1), trend(PI, 0.5), trend(0.3, 0.0), trend(2.2, 1.0)];
+    let mut followed = 0;
+    for insertion in [0.0, 1e-7, 1e-5, 0.4, 1.1, 3.0, PI] {
+        let branch = Branch { nodes: 3, insertion, ..Branch::on(0, 1) };
+        let plant = posed(&[Branch::trunk(1, 0.5), branch], &trends, Growth::AxisByAxis).plant;
+        let axis = AxisId(1);
+        let lasts = [None, plant.axes.last_node[axis.index()].some()];
+        for (last, named) in lasts.into_iter().flat_map(|last| (0..5).map(move |named| (last, named))) {
+            let mut ahead = Ahead::of_bud(&plant, axis, last);
+            let mut onward = Onward::from(&ahead);
+            for node in 0..300 {
+                let trend = if node < 20 { 1 } else { named };
+                ahead.tend(&plant, axis, trend);
+                ahead.grow(0.01);
+                if !onward.go_on(&plant, axis, trend, 0.01) {
+                    break;
+                }
+                let apart = (0..3).map(|k| (ahead.base()[k] - onward.base()[k]).abs()).fold(0.0, f64::max);
+                assert!(apart < 1e-8, "insertion {insertion}, trend {named}, node {node}: {apart} m");
+                followed += 1;
+            }
+        }
+    }
+    assert!(followed > 20_000, "{followed} of 21,000 nodes are known");
+}
+
 #[test]
 fn an_upright_axis_that_tends_to_hang_keeps_its_share_of_the_angle() {
     for share in [0.1, 0.3, 0.5, 0.51] {

@@ -26,6 +26,7 @@ use crate::clock::Tick;
 use crate::plant::Plant;
 use crate::shape::tree::{Tree, Walk};
 use crate::shape::{Bounds, Point};
+use cells::NO_AXIS;
 use of_plant::OfPlant;
 use rayon::iter::{IndexedParallelIterator, IntoParallelRefIterator, IntoParallelRefMutIterator, ParallelIterator};
 use std::sync::OnceLock;
@@ -146,7 +147,7 @@ impl Stems {
                 false
             };
             match cells.about(at, reach) {
-                Some(range) => cells.each_in(&range, asked),
+                Some(range) => cells.each_in(&range, NO_AXIS, asked),
                 None => of.each().for_each(|node| _ = asked(node)),
             }
         });

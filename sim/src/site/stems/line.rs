@@ -5,6 +5,7 @@
 //! has to be asked so. Absent: the way past a stem that is touched.
 
 use super::beside::ROUNDING;
+use super::cells::NO_AXIS;
 use super::of_plant::OfPlant;
 use super::segments::Segment;
 use super::stem::{Near, Stem, length};
@@ -53,16 +54,17 @@ struct Piece<'a> {
 }
 
 impl Stems {
-    /// Whether a line is soon known to touch no stem: none of its internodes comes nearer to one than its room and than
-    /// it began to the axis of that stem.
-    pub fn are_passed(&self, line: &Line, spared: Spared) -> bool {
-        (0..line.rooms.len()).step_by(PIECE).all(|first| {
+    /// How many internodes of a line, from its first on, are soon known to touch no stem: none of them comes nearer to
+    /// one than its room and than it began to the axis of that stem.
+    pub fn passed_by(&self, line: &Line, spared: Spared) -> usize {
+        let touches = (0..line.rooms.len()).step_by(PIECE).find(|&first| {
             let last = line.rooms.len().min(first + PIECE);
             let (points, rooms) = (&line.points[first..=last], &line.rooms[first..last]);
             let room = rooms.iter().copied().fold(0.0, f64::max) + DIGITS;
             let piece = Piece { points, rooms, room, about: Bounds::of_points(points).with_margin(room) };
-            self.are_passed_by(&piece, spared)
-        })
+            !self.are_passed_by(&piece, spared)
+        });
+        touches.unwrap_or(line.rooms.len())
     }
 
     fn are_passed_by(&self, piece: &Piece, spared: Spared) -> bool {
@@ -73,20 +75,21 @@ impl Stems {
         let mut passed = reach.is_finite();
         self.each_plant_near(middle, reach, spared, &mut |plant| {
             let of = &self.plants[plant as usize];
-            passed = passed && piece.passes(of, |stem| self.is_met(of, stem, spared));
+            let own = if of.number == spared.plant { spared.axis } else { NO_AXIS };
+            passed = passed && piece.passes(of, own, |stem| self.is_met(of, stem, spared));
         });
         passed
     }
 }
 
 impl Piece<'_> {
-    /// Whether it passes all stems of a plant that count.
-    fn passes(&self, of: &OfPlant, counts: impl Fn(&Stem) -> bool) -> bool {
+    /// Whether it passes all stems of a plant that count; those of the axis `spared` do not.
+    fn passes(&self, of: &OfPlant, spared: u32, counts: impl Fn(&Stem) -> bool) -> bool {
         let [low, high] = [self.about.low, self.about.high].map(|corner| of.seen_from_seed(corner));
         let cells = of.cells();
         let Some(range) = cells.around([low, high]) else { return false };
         let (mut near, mut many) = ([0; MOST_NEAR], 0);
-        cells.each_in(&range, |node| {
+        cells.each_in(&range, spared, |node| {
             let stem = &of.stems[node as usize];
             let radius = f64::from(stem.radius());
             let beyond = |k: usize| {
@@ -129,6 +132,9 @@ impl Piece<'_> {
                 return true;
             }
             let way = Segment { start: ends[0], along: ends[1] - ends[0] };
+            if wood.is_left_by(&way) {
+                return true;
+            }
             let (distance, _) = wood.distance_of(&way);
             let is_passed = |began: f64| room.min(began) - distance < ROUNDING - DIGITS;
             *room <= distance || is_passed(wood.distance(way.start)) || {
@@ -139,5 +145,20 @@ impl Piece<'_> {
                 is_passed(began.fold(f64::INFINITY, f64::min))
             }
         })
+    }
+}
+
+impl Near {
+    /// Whether a way is soon known to come nowhere nearer to the bark than where it begins, but for less than what
+    /// rounding may add. It leads away from the nearest point of the middle line, and the distance from a segment is a
+    /// convex function of the way; so it never falls. Nor does the radius beside the way grow, but by the taper.
+    fn is_left_by(&self, way: &Segment) -> bool {
+        let share = self.middle.share_near(way.start);
+        let out = way.start - self.middle.at(share);
+        let leaves = way.along.dot(out) >= 0.0 || out.dot(out) <= DIGITS * DIGITS;
+        let square = self.middle.along.dot(self.middle.along);
+        // What the radius grows by at most, in metres times the square of the length of the stem.
+        let grows = (self.radii[1] - self.radii[0]) * way.along.dot(self.middle.along);
+        leaves && grows <= 4.0 * DIGITS * square
     }
 }

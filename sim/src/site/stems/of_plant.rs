@@ -3,7 +3,7 @@
 //! The cells in which they lie are made when a bud first asks, and from then on what has changed is entered anew.
 //! Absent: the cells (`cells`), and which plants a bud asks (`super`).
 
-use super::cells::Cells;
+use super::cells::{Cells, NO_AXIS};
 use super::stem::Stem;
 use crate::clock::Tick;
 use crate::plant::Plant;
@@ -74,16 +74,19 @@ impl OfPlant {
                 let axis = stretch.axis.0;
                 let radii = plant.nodes.diameter[nodes.clone()].iter().zip(&plant.nodes.diameter_tip[nodes.clone()]);
                 for ((node, stem), (base, tip)) in nodes.clone().zip(&mut stems[nodes]).zip(radii) {
+                    let radii = [0.5 * base, 0.5 * tip];
+                    // Most stand where they stood, and are no thicker than they were entered for.
+                    if !moves && radii[0].max(radii[1]) <= stem.entered {
+                        (stem.radii, stem.turn) = (radii, *turn);
+                        continue;
+                    }
                     let (was, is_fresh) = (*stem, stem.entered < 0.0);
                     if is_fresh || moves {
                         *stem = Stem { entered: was.entered, ..Stem::of(plant, axis, node) };
                         length += stem.extent() - was.extent();
                     }
-                    (stem.radii, stem.turn) = ([0.5 * base, 0.5 * tip], *turn);
+                    (stem.radii, stem.turn) = (radii, *turn);
                     fresh += usize::from(is_fresh);
-                    if stem.radius() <= was.entered && !moves {
-                        continue;
-                    }
                     if !stem.is_entered_as(&was) {
                         stem.entered = stem.radius() * ROOM + LEAST_ROOM;
                         let is_other = |cells: &Cells| is_fresh || !cells.same(&was, stem);
@@ -149,7 +152,7 @@ impl OfPlant {
         let (at, cells) = (self.seen_from_seed(point), self.cells());
         let Some(range) = cells.about(at, reach) else { return false };
         let mut far = true;
-        cells.each_in(&range, |node| {
+        cells.each_in(&range, NO_AXIS, |node| {
             let stem = &self.stems[node as usize];
             far = !(counts(self, stem) && stem.is_near(at, reach));
             !far
