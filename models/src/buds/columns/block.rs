@@ -2,7 +2,7 @@
 //!
 //! Absent: the columns themselves (`nodes`, `leaves`, `flowers`, `buds`).
 
-use crate::buds::compile::{BudModel, Draws, OrderLaws, Piece, Ranks, Things};
+use crate::buds::compile::{BudModel, Draws, OrderLaws, Piece, Ranks};
 use crate::buds::plan::Shoot;
 use crate::law::At;
 use phytomer_sim::plant::NodeId;
@@ -56,9 +56,9 @@ impl<'a> Block<'a> {
         &self.words[self.records[node] as usize..]
     }
 
-    /// The draws of things of all nodes.
-    pub fn draws(&self, things: &'a Things) -> Draws<'a> {
-        Draws { words: self.words, pieces: self.pieces, things }
+    /// The draws of all nodes.
+    pub fn draws(&self) -> Draws<'a> {
+        Draws { words: self.words, pieces: self.pieces, records: self.records }
     }
 
     /// Every node with its growth unit and the point of its laws, in their order.
