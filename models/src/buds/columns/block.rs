@@ -1,6 +1,6 @@
 //! A block of nodes that are made at once, of axes of one order: what is known of them before anything is drawn.
 //!
-//! Absent: the columns themselves (`nodes`, `leaves`, `flowers`, `buds`).
+//! Absent: the columns themselves (`nodes`, `axes`), and the organs (`organs`).
 
 use crate::buds::compile::{BudModel, Draws, OrderLaws, Piece, Ranks};
 use crate::buds::plan::Shoot;

@@ -1,8 +1,8 @@
-//! All nodes that axes of one order have decided on, made at once: a column at a time instead of node by node.
+//! All nodes that axes of one order have decided on, made at once.
 //!
-//! The words of the nodes are read in bulk; one loop a column draws lengths, angles, leaves, lives, flowers with their
-//! fruits, and buds; prefix sums give the component numbers. The plant is the same to the bit as node by node (`node`),
-//! where an axis goes that meets obstacles, has pests, or responds node by node. Both ways share
+//! The words of the nodes are read in bulk; one loop a column draws lengths, angles and numbers of organs and buds, and
+//! one loop over the nodes draws their organs and gives the component numbers. The plant is the same to the bit as node
+//! by node (`node`), where an axis goes that meets obstacles, has pests, or responds node by node. Both ways share
 //! their formulas (`compile`, `site`, `lives`). Absent: the steps at which the axis decides (`grow`).
 
 mod axes;
