@@ -11,6 +11,7 @@ use super::count_source::{Source, check_count, sources};
 use super::domain::{At, Domain};
 use super::formula::{self, Formula};
 use super::grid::Grid;
+use super::guides::{Guide, Guides, MOST_GUIDED, not_above};
 use super::mass::{MAX_COUNT, Mass};
 use super::variable::Variable;
 use super::varies::Varies;
@@ -40,6 +41,34 @@ pub struct CountTable {
     guides: Guides,
     /// The largest count that can be drawn in a run of any length; `None` where a longer run has the same parameters.
     goes_on_to: Option<u32>,
+}
+
+/// A count at a point, looked up once for draws that are made between those of others.
+#[derive(Clone, Copy, Debug)]
+pub struct CountAt<'a> {
+    first: u32,
+    thresholds: &'a [u32],
+    guide: Option<&'a Guide>,
+}
+
+impl CountAt<'_> {
+    /// The count of [`CountTable::sample`] at the point.
+    #[inline(always)]
+    pub fn draw(&self, word: u32) -> u32 {
+        match self.guide {
+            Some(guide) => {
+                let (low, high) = guide.ends(word);
+                // Most often at most one threshold is left, and where none is the next one is above the word: no branch
+                // depends on the word then.
+                let above = match high - low {
+                    0 | 1 => u32::from(self.thresholds.get(low).is_some_and(|&threshold| threshold <= word)),
+                    _ => not_above(&self.thresholds[low..high], word),
+                };
+                self.first + low as u32 + above
+            }
+            None => self.first + not_above(self.thresholds, word),
+        }
+    }
 }
 
 impl Count {
@@ -196,6 +225,15 @@ impl CountTable {
         }
     }
 
+    /// The distribution at a point, for counts that are drawn between those of others.
+    #[inline]
+    pub fn at_point(&self, at: &At) -> CountAt<'_> {
+        let number = self.distribution(at);
+        let Distribution { start, len, first, .. } = self.distributions[number];
+        let thresholds = &self.thresholds[start as usize..(start + len) as usize];
+        CountAt { first, thresholds, guide: self.guides.of(number) }
+    }
+
     /// The number of the distribution at a point: points with the same parameters have the same.
     #[inline]
     pub fn distribution(&self, at: &At) -> usize {
@@ -306,53 +344,6 @@ impl CountTable {
         }
         pmf
     }
-}
-
-/// The most distributions of a table that are guided, so that all guides together take a few kilobytes.
-const MOST_GUIDED: usize = 64;
-/// The high bits of a word that its guide asks.
-const GUIDE_BITS: u32 = 6;
-const GUIDED: usize = 1 << GUIDE_BITS;
-
-/// Where in each distribution the search begins and ends, by the high bits of a word (Chen and Asau 1974).
-#[derive(Clone, Debug, Default, PartialEq)]
-struct Guides(Vec<Guide>);
-
-/// For each value of the high bits, and for the end, how many thresholds lie below all words that begin so.
-#[derive(Clone, Debug, PartialEq)]
-struct Guide([u16; GUIDED + 1]);
-
-impl Guides {
-    /// Guides to distributions with these thresholds.
-    fn to<'a>(distributions: impl Iterator<Item = &'a [u32]>) -> Self {
-        let guide = |thresholds: &[u32]| {
-            Guide(std::array::from_fn(|high| {
-                let first = (high as u64) << (32 - GUIDE_BITS);
-                thresholds.partition_point(|&threshold| u64::from(threshold) <= first) as u16
-            }))
-        };
-        Self(distributions.map(guide).collect())
-    }
-
-    #[inline]
-    fn of(&self, distribution: usize) -> Option<&Guide> {
-        self.0.get(distribution)
-    }
-}
-
-impl Guide {
-    /// How many thresholds are certainly not above a word, and how many may be.
-    #[inline]
-    fn ends(&self, word: u32) -> (usize, usize) {
-        let high = (word >> (32 - GUIDE_BITS)) as usize;
-        (self.0[high].into(), self.0[high + 1].into())
-    }
-}
-
-/// How many thresholds are not above a word.
-#[inline]
-fn not_above(thresholds: &[u32], word: u32) -> u32 {
-    thresholds.partition_point(|&threshold| threshold <= word) as u32
 }
 
 /// The largest count that sources can draw together in a run of any length. Counts of each kind grow with its

@@ -96,6 +96,18 @@ impl Grid {
         self.stride[Variable::Rank as usize] == 0
     }
 
+    /// Its one variable, if any, and the first value of it; `None` where there are more, or the state is among them.
+    pub fn only_variable(&self) -> Option<(Option<Variable>, u32)> {
+        match (self.len, self.few) {
+            (1, _) => Some((None, 0)),
+            (_, Few::One(axis)) => {
+                let variable = Variable::ALL.into_iter().find(|variable| axis_of(*variable) == axis)?;
+                (axis != STATE).then_some((Some(variable), self.first[axis]))
+            }
+            _ => None,
+        }
+    }
+
     /// How often the cell can change along the nodes of an axis.
     pub fn varies(&self) -> Varies {
         match (self.len, self.is_rankless()) {

@@ -9,6 +9,7 @@
 //! words (a draw takes one 32-bit word from its caller).
 
 mod bare;
+mod clamped;
 pub mod condition;
 mod constant;
 mod count;
@@ -22,6 +23,7 @@ pub mod fault;
 mod form;
 mod formula;
 mod grid;
+mod guides;
 mod mass;
 mod own_age;
 mod parser;
@@ -49,7 +51,7 @@ mod varies;
 
 pub use constant::{Constant, ConstantForm};
 pub use count::{Binomial, Count, CountComponent, CountForm, NegativeBinomial, Poisson};
-pub use count_table::CountTable;
+pub use count_table::{CountAt, CountTable};
 pub use curves::{
     Beyond, ExponentialLaw, GompertzLaw, LinearLaw, LogisticLaw, RobustaLaw, StepLaw, TableLaw, WeibullLaw,
 };
@@ -61,10 +63,10 @@ pub use responding::Responding;
 pub use responses::{LinearPlateauLaw, MitscherlichLaw, QuadraticPlateauLaw};
 pub use speed::{SpeedForm, SpeedTable, SpeedText, Speeds};
 pub use steps::{HEIGHT_STEP, LIGHT_STEP, SHADE_STEPS, height_in_steps, shade_in_steps};
-pub use table::{ProbabilityTable, Threshold, ValueTable, happens};
+pub use table::{Along, ProbabilityTable, Threshold, ValueTable, happens};
 pub use variable::{Asked, Variable};
 pub use variate::{Lognormal, Normal, Uniform, Variate, VariateForm};
-pub use variate_table::{Parameters, VariateTable};
+pub use variate_table::{Parameters, VariateAt, VariateTable};
 pub use varies::Varies;
 
 /// The most cells that one compiled law may have (64 MiB of thresholds).

@@ -27,6 +27,25 @@ pub struct ProbabilityTable {
     goes_on: bool,
 }
 
+/// The thresholds of a probability along the one variable on which it depends, if any.
+#[derive(Clone, Debug)]
+pub struct Along {
+    /// The variable; `None` where there is but one threshold.
+    pub variable: Option<Variable>,
+    /// The value of the variable at the first threshold; later ones follow, and values beyond have the nearest.
+    first: u32,
+    thresholds: Box<[u32]>,
+}
+
+impl Along {
+    /// The threshold at a value of the variable.
+    #[inline(always)]
+    pub fn threshold(&self, value: u32) -> Threshold {
+        let place = value.saturating_sub(self.first) as usize;
+        Threshold(self.thresholds[place.min(self.thresholds.len() - 1)])
+    }
+}
+
 /// A law of values (lengths, diameters, angles), compiled.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ValueTable {
@@ -117,6 +136,12 @@ impl ProbabilityTable {
     #[inline]
     pub fn threshold(&self, at: At) -> Threshold {
         Threshold(self.thresholds[self.grid.cell(at)])
+    }
+
+    /// The thresholds along the one variable on which the probability depends, if any; `None` where there are more.
+    pub fn along(&self) -> Option<Along> {
+        let (variable, first) = self.grid.only_variable()?;
+        Some(Along { variable, first, thresholds: self.thresholds.as_slice().into() })
     }
 
     /// How often the probability can change along the nodes of an axis.

@@ -320,3 +320,47 @@ fn what_is_drawn_once_a_plant_depends_on_no_variable() {
         assert_eq!(faults[0].problem, format!("the law depends on {name}, which does not apply here"));
     }
 }
+
+#[test]
+fn a_variate_looked_up_at_a_point_draws_what_its_table_draws() {
+    let kinds = [
+        r#"{"value": {"linear": {"over": "age", "start": 1.0, "slope": 0.25}}}"#,
+        r#"{"normal": {"mean": {"linear": {"over": "age", "start": 1.0, "slope": 0.25}}, "sd": 2.0}, "min": 0.5}"#,
+        r#"{"normal": {"mean": 5.2, "sd": 0.9}, "min": 2.5, "max": 6.0}"#,
+        r#"{"uniform": {"min": -1.0, "max": 3.0}}"#,
+        r#"{"lognormal": {"mean": 3.0, "sd": 0.4}, "max": 4.0}"#,
+        r#"{"empirical": [1.0, 2.0, 7.5]}"#,
+    ];
+    for kind in kinds {
+        let table = variate(serde_json::from_str(kind));
+        for at in (1..=12).map(|age| At { age, ..HERE }) {
+            let here = table.at_point(&at);
+            for word in (0..2000_u32).map(|nth| nth.wrapping_mul(2_147_401)).chain([u32::MAX]) {
+                let (found, expected) = (here.draw(word), table.draw(word, at));
+                assert_eq!(found.to_bits(), expected.to_bits(), "{kind}: the word {word} at {at:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn thresholds_along_the_one_variable_are_those_of_the_table() {
+    let laws = [
+        ("0.3", None),
+        (r#"{"gompertz": {"over": "cycle", "c": 0.01, "g": 0.2}}"#, Some(Variable::Cycle)),
+        (r#"{"step": {"over": "age", "at": 6, "before": 0.0, "after": 0.98}}"#, Some(Variable::Age)),
+        (r#"{"linear": {"over": "dimension", "start": 0.1, "slope": 0.01}}"#, Some(Variable::Dimension)),
+    ];
+    for (given, variable) in laws {
+        let law: Law = serde_json::from_str(given).expect("reads");
+        let table = law.compile_probability(&domain(), &root()).expect("compiles");
+        let along = table.along().expect("at most one variable");
+        assert_eq!(along.variable, variable, "{given}");
+        for value in 0..200 {
+            let at = At { age: value, dimension: value, cycle: value, ..HERE };
+            assert_eq!(along.threshold(value), table.threshold(at), "{given} at {value}");
+        }
+    }
+    let both: Law = serde_json::from_str(r#"{"expression": "0.001 * age + 0.001 * cycle"}"#).expect("reads");
+    assert!(both.compile_probability(&domain(), &root()).expect("compiles").along().is_none());
+}

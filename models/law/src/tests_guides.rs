@@ -48,8 +48,8 @@ fn compare(table: &CountTable, at: At, what: &str) -> usize {
     table.sample_many(table.distribution(&at), words.iter().copied().zip(&mut many));
     for (&word, together) in words.iter().zip(many) {
         let expected = first + thresholds.iter().filter(|threshold| **threshold <= u64::from(word)).count() as u32;
-        let drawn = [table.sample(word, at), table.sample_at(word, &at), together];
-        assert_eq!(drawn, [expected; 3], "{what}: the word {word} at {at:?}");
+        let drawn = [table.sample(word, at), table.sample_at(word, &at), table.at_point(&at).draw(word), together];
+        assert_eq!(drawn, [expected; 4], "{what}: the word {word} at {at:?}");
     }
     thresholds.len()
 }

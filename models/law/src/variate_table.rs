@@ -7,11 +7,12 @@
 use phytomer_sim::math;
 use phytomer_sim::random::share;
 
+use super::clamped::{Clamped, clamp, of_logarithm};
 use super::domain::{At, Domain};
 use super::form::Law;
 use super::formula::{self, Formula};
 use super::grid::Grid;
-use super::quantile::{Deviates, density, phi};
+use super::quantile::Deviates;
 use super::range::ValueRange;
 use super::variate::{Lognormal, Normal, Uniform, Variate, VariateForm};
 use super::varies::Varies;
@@ -37,6 +38,17 @@ impl PartialEq for Parameters {
     fn eq(&self, other: &Self) -> bool {
         self.0.map(f64::to_bits) == other.0.map(f64::to_bits)
     }
+}
+
+/// A random variable at a point, looked up once for draws that are made between those of others.
+#[derive(Clone, Copy)]
+pub struct VariateAt<'a> {
+    parameters: Parameters,
+    low: f64,
+    high: f64,
+    is_normal: bool,
+    deviates: Deviates,
+    table: &'a VariateTable,
 }
 
 /// A real random variable, compiled.
@@ -246,6 +258,14 @@ impl VariateTable {
         self.draw_each(parameters, draws, |value| finish(value as f32));
     }
 
+    /// The distribution at a point, for draws that are made between those of others.
+    #[inline]
+    pub fn at_point(&self, at: &At) -> VariateAt<'_> {
+        let parameters = self.parameters(at);
+        let is_normal = self.kind == Kind::Normal;
+        VariateAt { table: self, parameters, low: self.low, high: self.high, is_normal, deviates: Deviates::new() }
+    }
+
     /// How often the parameters can change along the nodes of an axis.
     pub fn varies(&self) -> Varies {
         self.grid.varies()
@@ -259,7 +279,7 @@ impl VariateTable {
         draws: impl Iterator<Item = (u32, &'a mut T)>,
         finish: impl Fn(f64) -> T,
     ) {
-        let finish = |value: f64| finish(self.clamp(value));
+        let finish = |value: f64| finish(clamp(value, self.low, self.high));
         match &self.kind {
             Kind::Value => draws.for_each(|(_, into)| *into = finish(a)),
             Kind::Uniform => draws.for_each(|(word, into)| *into = finish(a + (b - a) * share(word))),
@@ -301,7 +321,7 @@ impl VariateTable {
         let mut extent = [f64::INFINITY, f64::NEG_INFINITY];
         let mut widen = |value: f64| extent = [extent[0].min(value), extent[1].max(value)];
         match &self.kind {
-            Kind::Empirical(values) => values.iter().for_each(|value| widen(self.clamp(*value))),
+            Kind::Empirical(values) => values.iter().for_each(|value| widen(clamp(*value, self.low, self.high))),
             _ => (0..self.cells.len()).for_each(|cell| {
                 widen(self.draw_in(cell, 0));
                 widen(self.draw_in(cell, u32::MAX));
@@ -313,7 +333,7 @@ impl VariateTable {
     /// Whether one of the values that can be drawn at any point is `value`, to the bit.
     pub fn can_be(&self, value: f64) -> bool {
         match &self.kind {
-            Kind::Empirical(values) => values.iter().any(|one| self.clamp(*one) == value),
+            Kind::Empirical(values) => values.iter().any(|one| clamp(*one, self.low, self.high) == value),
             _ => (0..self.cells.len()).any(|cell| self.meets(cell, value)),
         }
     }
@@ -336,57 +356,40 @@ impl VariateTable {
     pub fn mean(&self, at: At) -> f64 {
         let [a, b] = self.cells[self.grid.cell(at)];
         match &self.kind {
-            Kind::Value => self.clamp(a),
-            Kind::Uniform => self.uniform_mean(a, b),
+            Kind::Value => clamp(a, self.low, self.high),
+            Kind::Uniform => self.clamped().uniform(a, b),
             Kind::Normal | Kind::Lognormal if b == 0.0 => f64::from(self.draw(0, at)),
-            Kind::Normal => self.normal_mean(a, b),
-            Kind::Lognormal => self.lognormal_mean(a, b),
-            Kind::Empirical(values) => values.iter().map(|value| self.clamp(*value)).sum::<f64>() / values.len() as f64,
+            Kind::Normal => self.clamped().normal(a, b),
+            Kind::Lognormal => self.clamped().lognormal(a, b),
+            Kind::Empirical(values) => {
+                values.iter().map(|value| clamp(*value, self.low, self.high)).sum::<f64>() / values.len() as f64
+            }
         }
     }
 
-    // Parameters are finite, so that no value is without order: one instruction a bound.
-    #[inline]
-    fn clamp(&self, value: f64) -> f64 {
-        let value = if value < self.low { self.low } else { value };
-        if value > self.high { self.high } else { value }
+    fn clamped(&self) -> Clamped {
+        Clamped { low: self.low, high: self.high }
     }
+}
 
-    fn uniform_mean(&self, a: f64, b: f64) -> f64 {
-        if a == b || self.low >= b || self.high <= a {
-            return self.clamp(a);
+impl VariateAt<'_> {
+    /// The draw of [`VariateTable::draw`] at the point.
+    #[inline(always)]
+    pub fn draw(&self, word: u32) -> f32 {
+        if !self.is_normal {
+            return self.draw_other(word);
         }
-        let (low, high) = (self.low.max(a), self.high.min(b));
-        ((low - a) * low + (high - low) * (low + high) / 2.0 + (b - high) * high) / (b - a)
+        let Parameters([mean, sd]) = self.parameters;
+        clamp(mean + sd * self.deviates.of(word), self.low, self.high) as f32
     }
 
-    /// E[clamp(X)] = l Φ(α) + m (Φ(β) − Φ(α)) − s (φ(β) − φ(α)) + h (1 − Φ(β)), α = (l − m)/s, β = (h − m)/s.
-    fn normal_mean(&self, m: f64, s: f64) -> f64 {
-        let (alpha, beta) = ((self.low - m) / s, (self.high - m) / s);
-        m * (phi(beta) - phi(alpha)) - s * (density(beta) - density(alpha))
-            + part(self.low, phi(alpha))
-            + part(self.high, phi(-beta))
+    /// A draw of another distribution than the normal one, which most laws of lengths and angles state.
+    #[inline(never)]
+    fn draw_other(&self, word: u32) -> f32 {
+        let mut drawn = 0.0;
+        self.table.draw_each(self.parameters, std::iter::once((word, &mut drawn)), |value| value as f32);
+        drawn
     }
-
-    /// As the normal's, with E[X; l < X < h] = exp(μ + s²/2) (Φ(β − s) − Φ(α − s)).
-    fn lognormal_mean(&self, m: f64, s: f64) -> f64 {
-        let standard = |bound: f64| if bound > 0.0 { (math::log(bound) - m) / s } else { f64::NEG_INFINITY };
-        let (alpha, beta) = (standard(self.low), standard(self.high));
-        math::exp(m + s * s / 2.0) * (phi(beta - s) - phi(alpha - s))
-            + part(self.low, phi(alpha))
-            + part(self.high, phi(-beta))
-    }
-}
-
-/// A bound times the probability of being clamped to it; nothing for an infinite bound.
-fn part(bound: f64, probability: f64) -> f64 {
-    if probability == 0.0 { 0.0 } else { bound * probability }
-}
-
-/// Mean and standard deviation of the logarithm from those of the variable.
-fn of_logarithm([mean, sd]: [f64; 2]) -> [f64; 2] {
-    let variance = math::log1p((sd / mean) * (sd / mean));
-    [math::log(mean) - variance / 2.0, variance.sqrt()]
 }
 
 /// The place that a word picks among `len` equally likely ones.

@@ -156,11 +156,7 @@ impl<'a> Axis<'a> {
             return Ok(());
         }
         self.bud.age = age;
-        let Words { plan, living, .. } = &mut *self.words;
-        if let Some(shoot) = plan.shoots.last_mut().filter(|shoot| shoot.bud.axis == self.bud.axis) {
-            shoot.living = Some(living.len());
-        }
-        living.push(self.bud);
+        self.words.live_on(self.bud);
         Ok(())
     }
 

@@ -23,8 +23,8 @@ pub(super) struct FlowerSite {
 
 /// A flower, and the fruit that it sets.
 pub(super) struct Bloom {
-    flower: NewOrgan,
-    fruit: Option<NewOrgan>,
+    pub flower: NewOrgan,
+    pub fruit: Option<NewOrgan>,
 }
 
 /// What a flower or a fruit draws: its life, its length and its width.
@@ -66,7 +66,7 @@ impl Bloom {
 
     /// A flower that was drawn, with the fruit that it `sets`, of the insertion angle of its flower. A flower that is
     /// eaten sets no fruit.
-    #[inline]
+    #[inline(always)]
     pub fn drawn(
         laws: &NodeLaws,
         (site, insertion): (FlowerSite, f32),

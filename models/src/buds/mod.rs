@@ -25,6 +25,7 @@ mod plain;
 mod plan;
 mod planned;
 mod record;
+mod simple;
 mod site;
 mod start;
 mod steps;

@@ -6,7 +6,7 @@
 //! their birth, meet something, lack light or have pests.
 
 use super::bud::ApicalBud;
-use super::compile::{BudModel, OrderLaws, Piece, StepTests};
+use super::compile::{BudModel, OrderLaws, Piece, SimpleSteps, StepTests};
 use super::grow::{Axis, Full};
 use super::params::ApexEnd;
 use super::plan::{Plan, Shoot};
@@ -18,25 +18,25 @@ use phytomer_sim::clock::{Speed, Tick};
 use phytomer_sim::plant::{ApexFate, Event, EventKind, LineageKey, Plant};
 
 /// What axes of one order have in common that grow to one age.
-struct Alike<'a> {
-    laws: &'a OrderLaws,
+pub(super) struct Alike<'a> {
+    pub laws: &'a OrderLaws,
     tests: StepTests<'a>,
     speed: Speed,
     /// The growth units after which an apex ends.
-    last_unit: u32,
-    age: Tick,
+    pub last_unit: u32,
+    pub age: Tick,
 }
 
 /// An axis while it goes through its steps.
-struct Way {
+pub(super) struct Way {
     /// Its bud before it grows, but for its last node where nodes have been made meanwhile.
-    bud: ApicalBud,
-    key: LineageKey,
-    birth: Tick,
+    pub bud: ApicalBud,
+    pub key: LineageKey,
+    pub birth: Tick,
     /// Whether it is the first of its set of relays or forks, or belongs to no set.
     leads: bool,
     /// The point of its laws.
-    at: At,
+    pub at: At,
     /// The steps that are due by the tick at which it is.
     due: u32,
 }
@@ -58,12 +58,20 @@ enum Halt {
 
 impl OrderLaws {
     /// Whether axes of the order go through their steps in [`BudModel::grow_plain`], where they stand in the open and
-    /// in full light. Where no step makes more than one node they do not: that gains nothing, as measured.
+    /// in full light. Where no step makes more than one node they do not, unless the steps are simple: that gains
+    /// nothing, as measured.
     pub(super) fn are_plain(&self) -> bool {
         let Self { head, step, node, light_alone, .. } = self;
         let is_known = !head.guides_growth && head.speed.only().is_some() && step.is_plain && step.width > 0;
         let responds = !step.spare.places().is_empty() || !node.spare.places().is_empty();
-        is_known && node.most_nodes > 1 && (*light_alone || !responds)
+        let gains = node.most_nodes > 1 || self.simple.is_some();
+        is_known && node.most_nodes > 0 && gains && (*light_alone || !responds)
+    }
+
+    /// The steps of the order in full light, where they are simple: one a tick, of a unit whose nodes are not drawn.
+    pub(super) fn simple_steps(&self) -> Option<SimpleSteps> {
+        let is_even = self.head.speed.only() == Some(Speed::ONE);
+        is_even.then(|| self.step.simple()).flatten()
     }
 }
 
@@ -103,7 +111,10 @@ impl BudModel {
         words.shaded = false;
         let ahead = words.next_ahead();
         for (nth, bud) in buds.iter().enumerate() {
-            self.grow_one(plant, words, &of, Way::begin(plant, *bud, height), ahead + nth)?;
+            match &laws.simple {
+                Some(simple) => self.grow_simply(plant, words, (&of, simple, height), *bud, ahead + nth)?,
+                None => self.grow_one(plant, words, &of, Way::begin(plant, *bud, height), ahead + nth)?,
+            }
         }
         words.go_on_ahead_from(ahead + buds.len());
         Ok(())
@@ -145,31 +156,26 @@ impl BudModel {
                 }
             }
         }
-        let bud = ApicalBud { age: of.age, ..way.bud_now() };
-        let Words { plan, living, .. } = words;
-        if let Some(shoot) = plan.shoots.last_mut().filter(|shoot| shoot.bud.axis == bud.axis) {
-            shoot.living = Some(living.len());
-        }
-        living.push(bud);
+        words.live_on(ApicalBud { age: of.age, ..way.bud_now() });
         Ok(())
     }
 
     /// The axis on its way.
-    fn axis_at<'a>(&'a self, plant: &'a mut Plant, words: &'a mut Words, way: &Way) -> Axis<'a> {
+    pub(super) fn axis_at<'a>(&'a self, plant: &'a mut Plant, words: &'a mut Words, way: &Way) -> Axis<'a> {
         let mut axis = Axis::of(self, plant, words, way.bud_now());
         axis.set_tick(way.at.age);
         axis
     }
 
     /// Ends an apex that has made its last growth unit.
-    fn complete(&self, plant: &mut Plant, words: &mut Words, way: &Way) -> Result<(), Full> {
+    pub(super) fn complete(&self, plant: &mut Plant, words: &mut Words, way: &Way) -> Result<(), Full> {
         let mut axis = self.axis_at(plant, words, way);
         axis.end(ApexFate::Completed, EventKind::Completed, ApexEnd::Completed).map(|_| ())
     }
 }
 
 impl Way {
-    fn begin(plant: &Plant, bud: ApicalBud, height: u32) -> Self {
+    pub(super) fn begin(plant: &Plant, bud: ApicalBud, height: u32) -> Self {
         let place = bud.axis.index();
         let (birth, key, leads) = (plant.axes.birth[place], plant.axes.key[place], !plant.axes.follows[place]);
         let ApicalBud { age, cycle, units: unit, birth: bud_birth, state, .. } = bud;
@@ -227,7 +233,7 @@ impl Alike<'_> {
             let nodes = number.draw_at(words, at);
             let fills = plan.nodes + nodes >= self.laws.node.block;
             if nodes > 0 && !fills {
-                plan.add(Piece::of_unit(at, short, nodes, plan.nodes), bud, *key);
+                plan.add(Piece::of_unit(*at, short, nodes, plan.nodes), bud, *key);
             }
             if !fills {
                 note(plan, EventKind::Grew, nodes);
@@ -259,8 +265,8 @@ impl Plan {
     }
 
     /// Adds nodes behind those that are planned, of the axis of a bud that has drawn neither zones nor trends.
-    #[inline]
-    fn add(&mut self, piece: Piece, bud: &ApicalBud, key: LineageKey) {
+    #[inline(always)]
+    pub(super) fn add(&mut self, piece: Piece, bud: &ApicalBud, key: LineageKey) {
         self.nodes = piece.nodes.1;
         match self.shoots.last_mut() {
             Some(shoot) if shoot.bud.axis == bud.axis => shoot.nodes.1 = piece.nodes.1,

@@ -15,8 +15,8 @@ use phytomer_sim::plant::{NodeId, Plant};
 /// The fewest nodes that are made at once: fewer of one axis are made faster one by one, as measured.
 const FEWEST: u32 = 4;
 
-/// The fewest nodes that axes which grow by the clock make at once, as measured.
-const MANY_BY_THE_CLOCK: u32 = 8;
+/// The fewest nodes that axes which grow by the clock make at once, as measured: bare ones and others.
+const MANY_BY_THE_CLOCK: [u32; 2] = [8, 2];
 
 impl Axis<'_> {
     /// Plans the nodes of a growth unit, and makes the block as soon as it is full.
@@ -166,13 +166,14 @@ impl Axis<'_> {
 /// few of buds that grow by the clock.
 pub(super) fn make_last(model: &BudModel, plant: &mut Plant, words: &mut Words) -> Result<(), Full> {
     let Some(shoot) = words.plan.shoots.first() else { return Ok(()) };
-    if words.many_begin || words.plan.nodes >= MANY_BY_THE_CLOCK {
+    let bud = shoot.bud;
+    let laws = model.laws(plant.axes.order[bud.axis.index()]);
+    if words.many_begin || words.plan.nodes >= MANY_BY_THE_CLOCK[usize::from(!laws.node.is_bare)] {
         make_at_once(model, plant, words)?;
         words.plan.clear();
         return Ok(());
     }
-    let bud = shoot.bud;
-    words.read_nodes(model.laws(plant.axes.order[bud.axis.index()]), &plant.random);
+    words.read_nodes(laws, &plant.random);
     let mut plan = std::mem::take(&mut words.plan);
     Axis::of(model, plant, words, bud).make_in_turn(&plan)?;
     plan.clear();

@@ -254,6 +254,16 @@ impl Words {
         self.on_node[..width].copy_from_slice(&self.nodes.words()[record..record + width]);
     }
 
+    /// Lets the bud of an axis that has grown to its age join the living ones.
+    #[inline]
+    pub fn live_on(&mut self, bud: ApicalBud) {
+        let Self { plan, living, .. } = self;
+        if let Some(shoot) = plan.shoots.last_mut().filter(|shoot| shoot.bud.axis == bud.axis) {
+            shoot.living = Some(living.len());
+        }
+        living.push(bud);
+    }
+
     /// Makes `living` the buds that have grown to their age and live. Memory is exchanged where that is no waste: it is
     /// lent to other plants.
     pub fn give_living(&mut self, living: &mut Vec<ApicalBud>) {

@@ -66,6 +66,12 @@ macro_rules! columns {
                 $(self.$column.extend(entries.iter().zip(components).map(|(&$entry, &$component)| $value));)*
             }
 
+            /// Takes out the entries from a place on.
+            #[allow(dead_code)]
+            pub(super) fn truncate(&mut self, number: usize) {
+                $(self.$column.truncate(number);)*
+            }
+
             /// Empties every column and keeps the memory.
             pub(super) fn clear(&mut self) {
                 $(self.$column.clear();)*

@@ -3,9 +3,10 @@
 //! The plant is the same as if its model had added them one by one: the model states the component numbers, in the
 //! order in which it would have added them. Absent: the entry of one component (`node`, `organ`, `axis`).
 
-use super::handle::{AxisId, NodeId};
+use super::handle::{AxisId, NodeId, OrganId};
+pub use super::new_organs::OrganTile;
 use super::node::{Formation, Nodes, buds_told, told};
-use super::{NewAxis, NewOrgan, Plant};
+use super::{NewAxis, Plant};
 use crate::clock::Tick;
 use std::iter::repeat_n;
 
@@ -83,9 +84,10 @@ impl Plant {
         }
     }
 
-    /// Adds organs, each with its component number. Linear in the organs.
-    pub fn add_organs(&mut self, new: &[NewOrgan], components: &[u32]) {
-        self.organs.extend_columns(new, components);
+    /// Takes out the organs from a place on, which were added while no other component was and for which there is no
+    /// room.
+    pub fn take_back_organs(&mut self, first: OrganId) {
+        self.organs.truncate(first.index());
     }
 
     /// Adds axes, each with its component number, and returns the first of them. Linear in the axes.

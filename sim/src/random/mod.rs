@@ -30,12 +30,14 @@ pub type WordBlock = [u32; WORDS_OF_BLOCK];
 pub const WORDS_OF_BLOCK: usize = block::WORDS;
 
 /// A block of words of one stream.
+// In this order the two are the last row of the state of the block, as they stand in memory on x86.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[repr(C)]
 pub struct Sought {
-    /// The number of the stream, by [`Sought::stream_of`].
-    pub stream: u64,
     /// The number of the block, from 0.
     pub block: u64,
+    /// The number of the stream, by [`Sought::stream_of`].
+    pub stream: u64,
 }
 
 impl Sought {

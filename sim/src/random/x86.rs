@@ -9,7 +9,7 @@
 //! be called only where the machine has the instructions that it names, which `kernel` asks.
 
 use super::Sought;
-use super::block::{Block, Name, WORDS, last_row};
+use super::block::{Block, Name, WORDS};
 use bytemuck::cast;
 
 /// Turns of the words of a row to the left, as the shuffles of x86 state them: the sources of words 3 to 0, two bits
@@ -190,44 +190,66 @@ macro_rules! two_blocks_a_register {
             let (pairs, rest) = blocks.as_chunks_mut::<2>();
             let (many, few) = pairs.as_chunks_mut::<$groups>();
             let (of_many, of_rest) = of.split_at(many.len() * 2 * $groups);
-            for (blocks, of) in many.iter_mut().zip(of_many.as_chunks::<{ 2 * $groups }>().0) {
+            for (blocks, of) in many.iter_mut().zip(of_many.as_chunks::<2>().0.as_chunks::<$groups>().0) {
                 make(name, rows_apart(of), blocks);
             }
             if of_rest.is_empty() {
                 return;
             }
-            let mut of = [Sought { stream: 0, block: 0 }; 2 * $groups];
-            of[..of_rest.len()].copy_from_slice(of_rest);
-            let mut made = [[[0; WORDS]; 2]; $groups];
-            make(name, rows_apart(&of), &mut made);
             let places = few.as_flattened_mut().iter_mut().chain(rest);
+            match of_rest.len().div_ceil(2) {
+                $(..=$few => apart_aside::<$few>(name, of_rest, places),)*
+                _ => apart_aside::<$groups>(name, of_rest, places),
+            }
+        }
+
+        /// Few blocks of many streams: at most two a group.
+        #[inline]
+        #[target_feature(enable = $features)]
+        fn apart_aside<'a, const GROUPS: usize>(
+            name: &Name,
+            of: &[Sought],
+            places: impl Iterator<Item = &'a mut Block>,
+        ) {
+            let mut pairs = [[Sought { block: 0, stream: 0 }; 2]; GROUPS];
+            pairs.as_flattened_mut()[..of.len()].copy_from_slice(of);
+            let mut made = [[[0; WORDS]; 2]; GROUPS];
+            make(name, rows_apart(&pairs), &mut made);
             places.zip(made.as_flattened()).for_each(|(place, block)| *place = *block);
         }
 
         /// The last rows of blocks of many streams.
         #[inline]
         #[target_feature(enable = $features)]
-        fn rows_apart(of: &[Sought; 2 * $groups]) -> [__m256i; $groups] {
-            std::array::from_fn(|group| {
-                cast([2 * group, 2 * group + 1].map(|place| last_row(of[place].stream, of[place].block)))
-            })
+        fn rows_apart<const GROUPS: usize>(of: &[[Sought; 2]; GROUPS]) -> [__m256i; GROUPS] {
+            // Closures given to functions without these instructions would be called, so none is.
+            let mut rows = [cast([0_u64; 4]); GROUPS];
+            for group in 0..GROUPS {
+                let [one, other] = of[group];
+                rows[group] = cast([one.block, one.stream, other.block, other.stream]);
+            }
+            rows
         }
 
         /// The last rows of the blocks of a stream from `counter` on.
         #[inline]
         #[target_feature(enable = $features)]
         fn last_rows<const GROUPS: usize>(name: &Name, counter: u64) -> [__m256i; GROUPS] {
-            std::array::from_fn(|group| {
+            let mut rows = [cast([0_u64; 4]); GROUPS];
+            for group in 0..GROUPS {
                 let first = counter.wrapping_add(2 * group as u64);
-                cast([name.last_row(first), name.last_row(first.wrapping_add(1))])
-            })
+                rows[group] = cast([first, name.stream, first.wrapping_add(1), name.stream]);
+            }
+            rows
         }
 
         #[inline]
         #[target_feature(enable = $features)]
         fn make<const GROUPS: usize>(name: &Name, last: [__m256i; GROUPS], blocks: &mut [[Block; 2]; GROUPS]) {
-            let start: [__m256i; 3] = name.rows().map(|row| cast([row, row]));
-            let ([mut a, mut b, mut c], mut d) = (start.map(|row| [row; GROUPS]), last);
+            let [one, two, three] = name.rows();
+            let start: [__m256i; 3] = [cast([one, one]), cast([two, two]), cast([three, three])];
+            let [mut a, mut b, mut c] = [[start[0]; GROUPS], [start[1]; GROUPS], [start[2]; GROUPS]];
+            let mut d = last;
             rounds!(a, b, c, d);
             for group in 0..GROUPS {
                 let [a, b] = [add(a[group], start[0]), add(b[group], start[1])];

@@ -5,7 +5,7 @@
 
 use super::block::Block;
 use crate::buds::birth::shed_after;
-use crate::buds::compile::Things;
+use crate::buds::compile::{Along, Chance};
 use crate::buds::plan::Shoot;
 use crate::buds::site::{Bearing, BudSite, spacing};
 use crate::law::At;
@@ -24,8 +24,7 @@ struct Released {
 /// The axes of a block.
 #[derive(Debug, Default)]
 pub struct NewAxes {
-    buds: Things,
-    reiterations: Things,
+    /// The numbers of reiteration buds of each node.
     numbers: Vec<u32>,
     released: Vec<Released>,
     pub rows: Vec<NewAxis>,
@@ -34,11 +33,11 @@ pub struct NewAxes {
 impl NewAxes {
     /// Draws the axes of a block, whose nodes have `buds` axillary buds, from the azimuths `first` on and `spacing`
     /// apart.
-    pub fn draw(&mut self, block: &Block<'_>, nodes: &Things, buds: &[u32], first: &[f32], spacing: &[f32]) {
+    pub fn draw(&mut self, block: &Block<'_>, buds: &[u32], first: &[f32], spacing: &[f32]) {
         self.released.clear();
         self.rows.clear();
         self.ramify(block, buds);
-        self.reiterate(block, nodes);
+        self.reiterate(block);
         let (mut piece, mut shoot) = (0, 0);
         for &released in &self.released {
             while block.pieces[piece].nodes.1 <= released.node {
@@ -60,49 +59,42 @@ impl NewAxes {
         if laws.axillary.count.fixed() == Some(0) || !block.model.has_order(block.laws.number + 1) {
             return;
         }
-        let Self { buds: things, released, .. } = self;
+        let released = &mut self.released;
         let Some(zones) = &laws.zones else {
-            things.set(buds, block.records);
-            let mut node = 0;
-            laws.axillary.chance.test_many(block.draws(things), |bud| {
-                while things.of(node).end <= bud {
-                    node += 1;
-                }
-                let position = (bud - things.of(node).start) as u32;
-                released.push(Released { node: node as u32, position, reiterates: false, state: None });
+            return test(block, &laws.axillary.chance, buds, |node, position| {
+                released.push(Released { node, position, reiterates: false, state: None });
             });
-            return;
         };
-        block.each(|node, piece, at| {
+        for piece in block.pieces {
             let drawn = block.zones_of(piece);
-            let Some(of) = zones.ramification(at.rank, piece.unit_nodes, drawn, &laws.axillary.chance) else { return };
-            let (words, outcome) = (block.record(node), of.chance.outcome(at));
-            for position in 0..buds[node] {
-                if outcome.happens(|| of.chance.word(words, position)) {
-                    let state = of.state(words, position, at);
-                    released.push(Released { node: node as u32, position, reiterates: false, state });
+            for node in piece.places() {
+                let rank = piece.rank(node);
+                let Some(of) = zones.ramification(rank, piece.unit_nodes, drawn, &laws.axillary.chance) else {
+                    continue;
+                };
+                let (words, at) = (block.record(node), piece.at(node));
+                let outcome = of.chance.outcome(at);
+                for position in 0..buds[node] {
+                    if outcome.happens(|| of.chance.word(words, position)) {
+                        let state = of.state(words, position, at);
+                        released.push(Released { node: node as u32, position, reiterates: false, state });
+                    }
                 }
             }
-        });
+        }
     }
 
     /// Which reiteration buds become axes: they follow the axillary axes of their node.
-    fn reiterate(&mut self, block: &Block<'_>, nodes: &Things) {
+    fn reiterate(&mut self, block: &Block<'_>) {
         let laws = &block.laws.node.reiteration;
         if laws.count.fixed() == Some(0) {
             return;
         }
-        laws.count.draw_many(block.draws(nodes), &mut self.numbers);
-        self.reiterations.set(&self.numbers, block.records);
-        let Self { reiterations, released, .. } = self;
+        laws.count.draw_many(block.draws(), &mut self.numbers);
+        let Self { numbers, released, .. } = self;
         let axillary = released.len();
-        let mut node = 0;
-        laws.chance.test_many(block.draws(reiterations), |bud| {
-            while reiterations.of(node).end <= bud {
-                node += 1;
-            }
-            let position = (bud - reiterations.of(node).start) as u32;
-            released.push(Released { node: node as u32, position, reiterates: true, state: None });
+        test(block, &laws.chance, numbers, |node, position| {
+            released.push(Released { node, position, reiterates: true, state: None });
         });
         if released.len() > axillary {
             released.sort_by_key(|released| (released.node, released.reiterates));
@@ -149,5 +141,25 @@ impl NewAxes {
                 plant.dormant.set(block.id(node), of);
             }
         });
+    }
+}
+
+/// Tests `numbers` buds of the nodes of a block; `told` is called with the node and the position of each for which the
+/// event happens.
+#[inline]
+fn test(block: &Block<'_>, chance: &Chance, numbers: &[u32], mut told: impl FnMut(u32, u32)) {
+    let Some(first) = block.pieces.first().filter(|_| !chance.is_never()) else { return };
+    let mut tests = Along::of(chance, first);
+    for piece in block.pieces {
+        tests.go_to(piece);
+        for node in piece.places() {
+            tests.stand_on(piece, node);
+            let words = block.record(node);
+            for position in 0..numbers[node] {
+                if tests.now.happens(words, position) {
+                    told(node as u32, position);
+                }
+            }
+        }
     }
 }

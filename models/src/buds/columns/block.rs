@@ -1,8 +1,8 @@
 //! A block of nodes that are made at once, of axes of one order: what is known of them before anything is drawn.
 //!
-//! Absent: the columns themselves (`nodes`, `leaves`, `flowers`, `buds`).
+//! Absent: the columns themselves (`nodes`, `axes`), and the organs (`organs`).
 
-use crate::buds::compile::{BudModel, Draws, OrderLaws, Piece, Ranks, Things};
+use crate::buds::compile::{BudModel, Draws, OrderLaws, Piece, Ranks};
 use crate::buds::plan::Shoot;
 use crate::law::At;
 use phytomer_sim::plant::NodeId;
@@ -56,9 +56,9 @@ impl<'a> Block<'a> {
         &self.words[self.records[node] as usize..]
     }
 
-    /// The draws of things of all nodes.
-    pub fn draws(&self, things: &'a Things) -> Draws<'a> {
-        Draws { words: self.words, pieces: self.pieces, things }
+    /// The draws of all nodes.
+    pub fn draws(&self) -> Draws<'a> {
+        Draws { words: self.words, pieces: self.pieces, records: self.records }
     }
 
     /// Every node with its growth unit and the point of its laws, in their order.

@@ -1,35 +1,32 @@
-//! All nodes that axes of one order have decided on, made at once: a column at a time instead of node by node.
+//! All nodes that axes of one order have decided on, made at once.
 //!
-//! The words of the nodes are read in bulk; one loop a column draws lengths, angles, leaves, lives, flowers with their
-//! fruits, and buds; prefix sums give the component numbers. The plant is the same to the bit as node by node (`node`),
-//! where an axis goes that meets obstacles, has pests, or responds node by node. Both ways share
+//! The words of the nodes are read in bulk; one loop a column draws lengths, angles and numbers of organs and buds, and
+//! one loop over the nodes draws their organs and gives the component numbers. The plant is the same to the bit as node
+//! by node (`node`), where an axis goes that meets obstacles, has pests, or responds node by node. Both ways share
 //! their formulas (`compile`, `site`, `lives`). Absent: the steps at which the axis decides (`grow`).
 
 mod axes;
 mod block;
-mod flowers;
-mod leaves;
+mod dress;
+mod dressing;
 mod nodes;
-mod numbers;
+mod organs;
 
 pub use block::Block;
 
 use super::birth::give_trends;
 use super::bud::ApicalBud;
-use super::compile::Things;
 use super::plan::Shoot;
 use super::site;
 use axes::NewAxes;
-use flowers::Flowers;
-use leaves::Leaves;
+use dressing::Borne;
 use nodes::NodeColumns;
-use numbers::Numbers;
-use phytomer_sim::plant::{AxisId, Event, EventKind, NewAxis, NewNodes, OfAxis, Origin, Plant};
+use organs::Numbers;
+use phytomer_sim::plant::{AxisId, Event, EventKind, NewAxis, NewNodes, OfAxis, OrganId, Origin, Plant};
 
 /// Room for the columns of a block, which all axes use in turn.
 #[derive(Debug, Default)]
 pub struct Columns {
-    of_nodes: Things,
     nodes: NodeColumns,
     /// The numbers of leaves, of flowers and of axillary buds of each node.
     leaf_numbers: Vec<u32>,
@@ -37,8 +34,6 @@ pub struct Columns {
     bud_numbers: Vec<u32>,
     /// The angle between two neighbouring positions around each node, radians.
     spacing: Vec<f32>,
-    leaves: Leaves,
-    flowers: Flowers,
     axes: NewAxes,
     numbers: Numbers,
     shoots: Vec<OfAxis>,
@@ -50,8 +45,12 @@ impl Columns {
     /// Makes the nodes of a block, between the events of their buds. Whether the plant has room for them; otherwise it
     /// has none of them.
     pub fn make(&mut self, block: &Block<'_>, plant: &mut Plant, events: &[(u32, Event)]) -> bool {
-        self.draw(block);
+        let organs = OrganId(plant.organs.len() as u32);
+        self.draw(block, plant);
         let has_room = self.write(block, plant, events);
+        if !has_room {
+            plant.take_back_organs(organs);
+        }
         let mut buds = std::mem::take(&mut self.buds);
         buds.clear();
         let shoots = block.shoots.iter().zip(&self.nodes.next_azimuth);
@@ -60,44 +59,42 @@ impl Columns {
         has_room
     }
 
-    /// Draws everything of a block.
-    fn draw(&mut self, block: &Block<'_>) {
+    /// Draws everything of a block; its organs are added to those of the plant.
+    fn draw(&mut self, block: &Block<'_>, plant: &mut Plant) {
+        let number = plant.components();
         let laws = &block.laws.node;
-        self.of_nodes.set_nodes(block.records);
-        self.nodes.draw(block, &self.of_nodes);
+        self.nodes.draw(block);
         if laws.is_bare {
             self.bud_numbers.clear();
             self.bud_numbers.resize(block.nodes(), 0);
-            return;
+            self.axes.rows.clear();
+            return self.numbers.set_bare(block, number, &[]);
         }
-        let draws = block.draws(&self.of_nodes);
+        let draws = block.draws();
         laws.leaves.draw_many(draws, &mut self.leaf_numbers);
         laws.flowers.draw_many(draws, &mut self.flower_numbers);
         laws.axillary.count.draw_many(draws, &mut self.bud_numbers);
         let places = self.leaf_numbers.iter().zip(&self.bud_numbers).map(|(&leaves, &buds)| leaves.max(buds));
         self.spacing.clear();
         self.spacing.extend(places.map(site::spacing));
-        let first = &self.nodes.azimuth;
-        self.leaves.draw(block, &self.leaf_numbers, first, &self.spacing);
-        let between = |node: usize| {
-            site::spacing(self.flower_numbers[node].max(self.leaf_numbers[node]).max(self.bud_numbers[node]))
+        self.axes.draw(block, &self.bud_numbers, &self.nodes.azimuth, &self.spacing);
+        let borne = Borne {
+            leaves: &self.leaf_numbers,
+            flowers: &self.flower_numbers,
+            buds: &self.bud_numbers,
+            azimuth: &self.nodes.azimuth,
+            spacing: &self.spacing,
+            axes: &self.axes.rows,
         };
-        self.flowers.draw(block, &self.flower_numbers, first, between);
-        self.axes.draw(block, &self.of_nodes, &self.bud_numbers, first, &self.spacing);
+        self.numbers.draw(block, number, &borne, &mut plant.organs);
     }
 
     /// Writes what was drawn into the columns of the plant. Whether the plant has room for it.
     fn write(&mut self, block: &Block<'_>, plant: &mut Plant, events: &[(u32, Event)]) -> bool {
-        if block.laws.node.is_bare {
-            self.leaves.clear();
-            self.flowers.rows.clear();
-            self.axes.rows.clear();
-        }
         let axes = self.axes.rows.as_slice();
-        let components = block.nodes() + self.leaves.rows.len() + self.flowers.rows.len() + axes.len();
-        let Some(first) = plant.take_numbers(components as u32) else { return false };
-        self.numbers.set(block, first, &self.leaves, &self.flowers.rows, axes);
-        plant.add_organs(self.numbers.in_order(&self.leaves), &self.numbers.organs);
+        if plant.take_numbers(self.numbers.next.wrapping_sub(plant.components())).is_none() {
+            return false;
+        }
         let nodes = &self.nodes;
         self.shoots.clear();
         self.shoots.extend(block.shoots.iter().map(|shoot| OfAxis {

@@ -1,8 +1,7 @@
 //! The columns of nodes: lengths, diameters, azimuths, trends.
 
 use super::block::Block;
-use crate::buds::compile::{Draws, Things};
-use crate::buds::plan::Shoot;
+use crate::buds::compile::Draws;
 use crate::buds::site::turned;
 use phytomer_sim::plant::OfUnit;
 
@@ -21,17 +20,17 @@ pub struct NodeColumns {
 
 impl NodeColumns {
     /// Draws the internodes of a block.
-    pub fn draw(&mut self, block: &Block<'_>, nodes: &Things) {
+    pub fn draw(&mut self, block: &Block<'_>) {
         let laws = &block.laws.node;
         for column in [&mut self.length, &mut self.diameter, &mut self.divergence] {
             column.resize(block.nodes(), 0.0);
         }
         for alike in block.pieces.chunk_by(|one, next| one.short == next.short) {
             let law = if alike[0].short { &laws.short_length } else { &laws.long_length };
-            law.draw_many(Draws { pieces: alike, ..block.draws(nodes) }, &mut self.length, |length| length);
+            law.draw_many(Draws { pieces: alike, ..block.draws() }, &mut self.length);
         }
-        laws.diameter.draw_many(block.draws(nodes), &mut self.diameter, |diameter| diameter);
-        laws.divergence.draw_many(block.draws(nodes), &mut self.divergence, |divergence| divergence);
+        laws.diameter.draw_many(block.draws(), &mut self.diameter);
+        laws.divergence.draw_many(block.draws(), &mut self.divergence);
         self.set_trends(block);
         self.set_units(block);
         self.azimuth.clear();
@@ -50,19 +49,20 @@ impl NodeColumns {
     fn set_trends(&mut self, block: &Block<'_>) {
         let trends = &block.laws.head.trends;
         self.trend.clear();
-        match trends.only() {
-            Some(only) => self.trend.resize(block.nodes(), only),
-            None => {
-                let mut shoots = block.shoots.iter();
-                let mut shoot = shoots.next();
-                block.each(|node, piece, _| {
-                    while shoot.is_some_and(|shoot| shoot.nodes.1 as usize <= node) {
-                        shoot = shoots.next();
-                    }
-                    let trend = |shoot| trends.at(Shoot::rank(shoot, node), piece.at.state, block.trends_of(shoot));
-                    self.trend.push(shoot.map_or(0, trend));
-                });
+        if let Some(only) = trends.only() {
+            return self.trend.resize(block.nodes(), only);
+        }
+        if trends.are_by_state() {
+            for piece in block.pieces {
+                self.trend.resize(piece.nodes.1 as usize, trends.at(0, piece.at.state, &[]));
             }
+            return;
+        }
+        for shoot in block.shoots {
+            let (first, last) = (shoot.rank(shoot.nodes.0 as usize), shoot.rank(shoot.nodes.1 as usize));
+            trends.along(first..last, block.trends_of(shoot), |trend, ranks| {
+                self.trend.resize(self.trend.len() + ranks as usize, trend);
+            });
         }
     }
 

@@ -33,8 +33,10 @@ pub(super) use node::{
 };
 pub(super) use reach::Reach;
 pub(super) use relay::EndLaws;
-pub(super) use step::{PLACE_OF_DEATH, PLACE_OF_WEAKNESS, Passage, STEP_OF_RESPONSES, StepLaws, StepTests};
-pub(super) use words::{Chance, Draws, Number, Piece, Spare, Things};
+pub(super) use step::{
+    PLACE_OF_DEATH, PLACE_OF_WEAKNESS, Passage, STEP_OF_RESPONSES, SimpleSteps, StepLaws, StepTests,
+};
+pub(super) use words::{Along, Chance, ChanceAt, Draws, Measure, MeasureAt, Number, NumberAt, Piece, Spare};
 pub(super) use zone::{Ramification, Ranks};
 
 use super::params::Buds;
@@ -84,6 +86,8 @@ pub(super) struct OrderLaws {
     pub light_alone: bool,
     /// Whether its axes go through their steps plainly, where they stand in the open and in full light.
     pub is_plain: bool,
+    /// The steps of its axes in full light, where they are simple.
+    pub simple: Option<SimpleSteps>,
     /// Whether a law itself does, so that sums over the ages of axes cannot have it.
     pub laws_ask_light: bool,
     /// Metres added to a diameter; a law of the plant's age and the internode's own.
@@ -126,6 +130,7 @@ impl Buds {
         }
         for laws in &mut orders {
             laws.reach = Reach::of(&laws.node);
+            laws.simple = laws.simple_steps();
             laws.is_plain = laws.are_plain();
         }
         if organ_trends.iter().all(|of| *of == OrganTrends::default()) {
@@ -193,6 +198,7 @@ impl OrderLaws {
             laws_ask_light: compiler.asks_light,
             light_alone: false,
             is_plain: false,
+            simple: None,
             step,
         }
     }

@@ -5,7 +5,7 @@
 
 use super::change::{ByAge, Change};
 use super::compiler::{Compiler, Ranks};
-use super::words::{Chance, Layout, Number, Spare, Tested};
+use super::words::{Chance, Layout, Number, Spare, Tested, TestedAlong};
 use super::zone::ZoneRanks;
 use crate::buds::params::{Order, Sibling, Transition};
 use crate::law::{At, CountTable, ProbabilityTable};
@@ -76,6 +76,15 @@ pub struct StepTests<'a> {
     pub short: Tested<'a>,
 }
 
+/// Plain steps in full light whose tests depend on one variable each at most, and whose numbers are not drawn.
+#[derive(Debug, Clone)]
+pub struct SimpleSteps {
+    pub death: TestedAlong,
+    pub pause: TestedAlong,
+    /// The nodes of each growth unit, which is long.
+    pub nodes: u32,
+}
+
 impl StepLaws {
     /// Compiles the laws of a step. An axis makes at most `last` growth units in all: in the run at hand, and in a run
     /// of any length.
@@ -141,6 +150,14 @@ impl StepLaws {
     pub fn tests(&self, shaded: bool) -> StepTests<'_> {
         let [death, pause, short] = [&self.death, &self.pause, &self.short].map(|chance| chance.looked_up(shaded));
         StepTests { death, pause, short }
+    }
+
+    /// The steps in full light, where they are simple: neither passages between states nor short units, and numbers and
+    /// tests that ask for little.
+    pub fn simple(&self) -> Option<SimpleSteps> {
+        let nodes = self.long_nodes.unchanging().filter(|_| self.short.is_never() && self.transitions.is_empty())?;
+        let [death, pause] = [&self.death, &self.pause].map(Chance::along);
+        Some(SimpleSteps { death: death?, pause: pause?, nodes }).filter(|_| self.is_plain)
     }
 
     /// Lets hazards join the mortality of a bud.

@@ -10,6 +10,7 @@ use crate::buds::params::{Orientation, StateTrends, Tended, Trend};
 use crate::law::{At, Count, CountTable, ValueRange, Variate, VariateTable};
 use phytomer_sim::plant::Trend as Tendency;
 use std::collections::BTreeMap;
+use std::ops::Range;
 
 /// The share of the angle to its trend that an internode of a plainly named trend turns. The paper draws the smoothed
 /// shape (Fig. 15) and gives no number; a tenth turns an axis through nine tenths of its angle in 22 internodes.
@@ -96,6 +97,27 @@ impl Trends {
         match self.phases.as_slice() {
             [only] if !self.by_state => Some(only.1),
             _ => None,
+        }
+    }
+
+    /// Whether the trend of a node depends on its state alone.
+    #[inline]
+    pub fn are_by_state(&self) -> bool {
+        self.by_state
+    }
+
+    /// Tells the trends of nodes at neighbouring ranks along an axis, in their order, each with the number of nodes
+    /// that have it; those of [`Self::at`].
+    #[inline]
+    pub fn along(&self, ranks: Range<u32>, drawn: &[(u32, u8)], mut told: impl FnMut(u8, u32)) {
+        let phases = if self.phases.is_empty() { drawn } else { &self.phases };
+        let mut rank = ranks.start;
+        while rank < ranks.end {
+            // It changes where a phase begins.
+            let next = phases.iter().map(|phase| phase.0).filter(|begin| *begin > rank).min();
+            let end = next.unwrap_or(u32::MAX).min(ranks.end);
+            told(self.at(rank, 0, drawn), end - rank);
+            rank = end;
         }
     }
 

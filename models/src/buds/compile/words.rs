@@ -5,11 +5,13 @@
 //! record does not depend on how long the run lasts: a quantity that could be drawn in a longer run alone has its words
 //! in a shorter run too. What responses need beyond it has a stream of its own ([`Spare`]).
 
+mod looked_up;
 mod many;
 mod steps;
 
-pub use many::{Draws, Outcome, Piece, Things};
-pub use steps::Tested;
+pub use looked_up::{Along, ChanceAt, MeasureAt, NumberAt};
+pub use many::{Draws, Outcome, Piece};
+pub use steps::{Tested, TestedAlong};
 
 use super::change::{ByAge, Change, nodes_times};
 use crate::law::{At, CountTable, ProbabilityTable, Threshold, Variable, VariateTable};
