@@ -10,6 +10,7 @@ mod area;
 mod brush;
 mod build;
 mod capitulum;
+mod catkin;
 mod cluster;
 mod flower;
 mod leaf;
@@ -107,6 +108,7 @@ pub fn of_library(form: Form, detail: u8, size: [f32; 2], area: f32) -> (&'stati
     let name = FormName::of(form).unwrap_or(FormName::Elliptic);
     LIBRARY[name as usize].fitting(detail, size, area, |aspect, detail| match name.near() {
         Some(near) => made(&near, aspect, detail),
+        None if name == FormName::Catkin => catkin::catkin(aspect, detail),
         None => rounder::rounder(super::shape(name.form()), [1, 2, 3, 5][usize::from(detail)]),
     })
 }
