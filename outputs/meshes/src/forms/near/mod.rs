@@ -2,7 +2,7 @@
 //!
 //! A blade that bends or is folded looks right in its own proportions alone, so a form is made for a class of width
 //! over length, in steps of √2, when it is first asked for. An organ is fitted to its area as at detail 0, so that it
-//! has the area of the tables. What has no settings is a solid that becomes rounder, or an inflorescence that
+//! has the area of the tables. What has no settings is a catkin, a solid that becomes rounder, or an inflorescence that
 //! stays as it is.
 //! Absent: which detail an organ has in a picture (`crate::scene`).
 
