@@ -3,13 +3,13 @@
 //!
 //! A level has at most so many triangles. First the tolerance of its wood and of the forms of its organs grows, as long
 //! as the outline holds; where that is not enough, organs become fewer and larger ([`phytomer_meshes::Thinned`]). Each
-//! level keeps some of the organs of the level before. An outline holds where its area differs by at most
-//! [`MOST_APART`] from that of the first level, from each of eight sides (`sides`). Tolerances are tried on the grid of
+//! level keeps some of the organs of the level before. An outline holds where its area differs by at most 2.5 % from
+//! that of the first level, from each of eight sides (`sides`). Tolerances are tried on the grid of
 //! `budget`, thirty-two steps an octave; the number of triangles falls with them nearly as a power, so that a few
 //! trials find one that fits, and the same wherever it is asked. Absent: the search (`search`), how levels are
 //! written, and cards, which stand for the last.
 
-use super::search::{Found, MOST_APART, Search, Tried};
+use super::search::{Found, Search, Tried};
 use super::sides::Apart;
 use phytomer_meshes::MeshOptions;
 use phytomer_sim::clock::Tick;

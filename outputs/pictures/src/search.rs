@@ -14,7 +14,7 @@ use std::collections::BTreeMap;
 
 /// The largest difference between the areas of outlines, as a share. What files promise is 3 %; the rest is for what
 /// the samples miss.
-pub const MOST_APART: f64 = 0.025;
+const MOST_APART: f64 = 0.025;
 
 /// The difference that is aimed at between a mesh that holds and one that does not.
 const AIMED_APART: f64 = 0.02;

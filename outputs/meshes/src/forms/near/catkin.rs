@@ -16,8 +16,10 @@ const SCALES: u16 = 7;
 /// How many rows a scale is long.
 const LONG: f32 = 1.9;
 
-/// The share of its radius by which the tip of a scale stands out.
+/// The share of its radius by which the tip of a scale stands out, and the most in lengths of the catkin: on a broad one
+/// scales are as flat as on a slim one.
 const STANDS_OUT: f32 = 0.26;
+const MOST_OUT: f32 = 0.018;
 
 /// The radius at shares of the length, in halves of the width.
 const OUTLINE: [[f32; 2]; 10] = [
@@ -37,6 +39,7 @@ const OUTLINE: [[f32; 2]; 10] = [
 pub fn catkin(aspect: f32, detail: u8) -> FormMesh {
     let detail = usize::from(detail.clamp(1, 3));
     let (around, along) = (SCALES * [2, 4, 6][detail - 1], ROWS * [1, 3, 5][detail - 1]);
+    let stands_out = STANDS_OUT.min(MOST_OUT / (0.5 * aspect));
     let mut build = Build::default();
     let mut before: Vec<u32> = Vec::new();
     for row in 0..=along {
@@ -45,7 +48,7 @@ pub fn catkin(aspect: f32, detail: u8) -> FormMesh {
             .map(|side| {
                 let turn = f32::from(side % around) / f32::from(around);
                 let (sin, cos) = sincosf(TAU * turn);
-                let radius = 0.5 * aspect * outline(share) * (1.0 - STANDS_OUT * (1.0 - height(share, turn)));
+                let radius = 0.5 * aspect * outline(share) * (1.0 - stands_out * (1.0 - height(share, turn)));
                 let at = [share, radius * cos, radius * sin];
                 build.corner(at, [0.0; 3], [f32::from(side) / f32::from(around), share])
             })
