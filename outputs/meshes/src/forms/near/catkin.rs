@@ -16,8 +16,8 @@ const SCALES: u16 = 7;
 /// How many rows a scale is long.
 const LONG: f32 = 1.9;
 
-/// The share of its radius by which the tip of a scale stands out, and the most in lengths of the catkin: on a broad one
-/// scales are as flat as on a slim one.
+/// The share of its radius by which the tip of a scale stands out, and the most in lengths of the catkin: on a broad
+/// one scales are as flat as on a slim one.
 const STANDS_OUT: f32 = 0.26;
 const MOST_OUT: f32 = 0.018;
 
