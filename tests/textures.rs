@@ -167,7 +167,7 @@ fn usd_and_obj_are_read_with_their_pictures() {
     let folder = painted(BY_ORDER);
     let at = |name: &str| folder.path().join(name).to_str().expect("a path in UTF-8").to_owned();
     let kind = painted("");
-    let files: [(&str, &Path, &[&str]); 9] = [
+    let files: [(&str, &Path, &[&str]); 11] = [
         ("still.usda", folder.path(), &[]),
         ("still.usdc", folder.path(), &[]),
         ("still.usdz", folder.path(), &[]),
@@ -177,6 +177,8 @@ fn usd_and_obj_are_read_with_their_pictures() {
         ("kind.usdc", kind.path(), &[]),
         ("merged.usda", kind.path(), &["--leaves", "merged"]),
         ("kind.obj", kind.path(), &[]),
+        ("life.usdc", folder.path(), &["--ages", "12..16"]),
+        ("lives.usda", kind.path(), &["--plot", "--ages", "12..16"]),
     ];
     for (name, from, more) in files {
         let scenario = from.join("scenario.toml").to_str().expect("a path").to_owned();
@@ -186,7 +188,7 @@ fn usd_and_obj_are_read_with_their_pictures() {
         let found = fs::read_dir(folder.path()).expect("a folder").flatten().map(|entry| entry.file_name());
         found.filter(|name| name.to_string_lossy().starts_with(&format!("{stem}_"))).count()
     };
-    assert_eq!(["still", "plot", "kind", "merged"].map(pictures), [5, 5, 3, 3]);
+    assert_eq!(["still", "plot", "kind", "merged", "life", "lives"].map(pictures), [5, 5, 3, 3, 5, 3]);
     let beside = fs::read(folder.path().join("still_bark.png")).expect("a picture");
     assert!(beside == fs::read(folder.path().join("pictures/bark.png")).expect("a picture"));
     let paths: Vec<String> = files.iter().map(|(name, ..)| at(name)).collect();
@@ -194,9 +196,9 @@ fn usd_and_obj_are_read_with_their_pictures() {
         let script = Path::new(ROOT).join("tests/readers/textures.py");
         let read = told(Command::new(&python).arg(script).args(&paths));
         for (name, ..) in files {
-            let by_order = !["kind", "merged"].iter().any(|stem| name.starts_with(stem));
+            let by_order = !["kind", "merged", "lives"].iter().any(|stem| name.starts_with(stem));
             let of = |material: &str, key: &str| read[name][material][key].clone();
-            let is_instanced = name == "kind.usdc";
+            let is_instanced = ["kind.usdc", "lives.usda"].contains(&name);
             let leaf = if is_instanced { "leaf" } else { "leaves" };
             assert_eq!(of("wood", "texture"), serde_json::json!([32, 16]), "{name}: {read}");
             assert_eq!(of(leaf, "texture"), serde_json::json!([20, 24]), "{name}: {read}");
@@ -210,6 +212,10 @@ fn usd_and_obj_are_read_with_their_pictures() {
                 assert_eq!(of("leaves", "faces"), of("leaves", "open3d"), "{name}: {read}");
             } else {
                 assert_eq!(of("wood", "relief"), serde_json::json!([16, 8]), "{name}: {read}");
+                // Pictures of bark go around a stem a whole number of times.
+                let around = of("wood", "around").as_f64();
+                let is_life = name.starts_with("li");
+                assert!(around.map_or(!is_life, |around| around >= 1.0 && around.fract() == 0.0), "{name}: {read}");
                 assert_eq!((of("wood", "repeats"), of(leaf, "repeats")), (true.into(), false.into()), "{name}: {read}");
                 assert_eq!((of("wood", "cut"), of(leaf, "cut")), (Value::Null, 0.5.into()), "{name}: {read}");
             }

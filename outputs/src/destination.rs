@@ -87,6 +87,19 @@ impl Destination {
         Ok(self.bytes)
     }
 
+    /// Waits until the bytes so far are on the disk, so that [`Destination::finish`] has little to wait for. The file
+    /// has not its name yet.
+    ///
+    /// # Errors
+    /// The system's error.
+    pub fn sync(&mut self) -> Result<(), FileError> {
+        let synced = self.out.flush().and_then(|()| match (self.out.get_ref(), &self.beside) {
+            (Sink::File(file), Some(_)) => file.sync_all(),
+            _ => Ok(()),
+        });
+        synced.map_err(FileError::io("write", &self.named))
+    }
+
     fn complete(&mut self) -> io::Result<()> {
         self.out.flush()?;
         let (Sink::File(file), Some((beside, last))) = (self.out.get_ref(), &self.beside) else { return Ok(()) };

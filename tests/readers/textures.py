@@ -49,7 +49,14 @@ def of_usd(path):
         if prim.IsA(UsdGeom.Subset):
             found[name]["faces"] += len(UsdGeom.Subset(prim).GetIndicesAttr().Get())
         elif prim.IsA(UsdGeom.Mesh) and not [child for child in prim.GetChildren() if child.IsA(UsdGeom.Subset)]:
-            found[name]["faces"] += len(UsdGeom.Mesh(prim).GetFaceVertexCountsAttr().Get())
+            mesh, st = UsdGeom.Mesh(prim), UsdGeom.PrimvarsAPI(prim).GetPrimvar("st")
+            found[name]["faces"] += len(mesh.GetFaceVertexCountsAttr().Get(stage.GetEndTimeCode()))
+            # Each corner of a face, or each vertex, has a place on the picture at all times.
+            of = {"faceVarying": mesh.GetFaceVertexIndicesAttr(), "vertex": mesh.GetPointsAttr()}[st.GetInterpolation()]
+            for time in st.GetAttr().GetTimeSamples() or [stage.GetEndTimeCode()]:
+                assert len(st.Get(time)) == len(of.Get(time)), (path, name, time)
+            around = max((place[0] for place in st.Get(stage.GetEndTimeCode())), default=0)
+            found[name]["around"] = max(around, found[name].get("around", 0))
     return found
 
 

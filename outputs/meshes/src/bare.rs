@@ -7,6 +7,7 @@
 use super::blocks::span;
 use super::chunk::Vertex;
 use super::forms::Placement;
+use super::organ_base::organ_base;
 use super::outline::{OrganForm, Shown};
 use super::reduced::{Reduced, ring::Place};
 use super::scene::Scene;
@@ -14,6 +15,7 @@ use super::stem::Drawn;
 use bytemuck::Zeroable;
 use glam::Vec3;
 use phytomer_sim::plant::{NodeId, OrganId};
+use phytomer_sim::pose::Frame;
 use std::convert::Infallible;
 use std::ops::Range;
 
@@ -39,7 +41,7 @@ pub struct Held {
 /// A box that holds an organ in its own form and in its coarser ones.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct OrganBox {
-    base: Vec3,
+    base: Frame,
     held: Held,
 }
 
@@ -47,8 +49,8 @@ impl OrganBox {
     /// The box where the organ is so many times as long and as wide.
     #[inline]
     pub fn times(&self, factor: f32) -> Held {
-        let Held { middle, half } = self.held;
-        Held { middle: self.base + factor * (middle - self.base), half: half.map(|half| factor * half) }
+        let (Held { middle, half }, base) = (self.held, Vec3::from_array(self.base.base));
+        Held { middle: base + factor * (middle - base), half: half.map(|half| factor * half) }
     }
 }
 
@@ -88,7 +90,7 @@ impl Scene<'_> {
             });
         } else {
             let organs = span(block - of_stems, self.plant().organs.len());
-            self.organs_of(organs).for_each(|organ| self.places_of_organ(organ, room, take));
+            self.organs_of(organs).for_each(|organ| self.places_of_organ(organ, None, room, take));
         }
     }
 
@@ -139,14 +141,22 @@ impl Scene<'_> {
             let [least, most] = coarse.bounds(&Placement { fullness, ..place });
             (low, high) = (low.min(least), high.max(most));
         }
-        Some(OrganBox { base: Vec3::from_array(place.base), held: held(&place, [low, high]) })
+        let base = Frame { base: place.base, heading: place.heading, up: place.up };
+        Some(OrganBox { base, held: held(&place, [low, high]) })
     }
 
-    /// Tells the places of an organ.
-    pub fn places_of_organ(&self, organ: OrganId, room: &mut Room, take: &mut dyn TakePlaces) {
+    /// Tells the places of an organ, whose box is known or not.
+    pub fn places_of_organ(
+        &self,
+        organ: OrganId,
+        known: Option<&OrganBox>,
+        room: &mut Room,
+        take: &mut dyn TakePlaces,
+    ) {
         let form = self.form(organ);
         if let Shown::Whole(OrganForm::Shape(shape)) = form {
-            let place = self.placement(organ, shape);
+            let base = known.map_or_else(|| organ_base(self.plant(), organ, self.age()), |known| known.base);
+            let place = self.placement_at(base, organ, shape);
             if take.wants(&held(&place, shape.bounds(&place))) {
                 shape.places(&place, &mut room.places);
                 take.faces(&room.places, &shape.faces);

@@ -95,7 +95,7 @@ pub use solid::{Solid, Undrawn};
 pub use stem::Stems;
 pub use stl::write_stl;
 pub use texture::{MOST_PICTURE_BYTES, MOST_PIXELS, Picture, PictureFault, Texture, Textures};
-pub use thinned::{ClassSums, MOST_LARGER, Thinned, organ_number};
+pub use thinned::{ClassSums, MOST_LARGER, Thinned, organ_class, organ_number};
 pub use tube::Frustum;
 
 pub use phytomer_looks::Flare;

@@ -259,7 +259,8 @@ impl<'a> Scene<'a> {
         self.organs_of(0..self.plant.organs.len())
     }
 
-    pub(super) fn organs_of(&self, range: Range<usize>) -> impl Iterator<Item = OrganId> {
+    /// Of a range of organs those that are drawn.
+    pub fn organs_of(&self, range: Range<usize>) -> impl Iterator<Item = OrganId> {
         let (plant, age, kinds, detail) = (self.plant, self.age, self.options.kinds, self.stems.detail.as_ref());
         let thinned = self.options.thinned;
         let drawn = move |&organ: &OrganId| {
@@ -337,7 +338,11 @@ impl<'a> Scene<'a> {
 
     /// The placement of an organ, with its size at its age, and with the fullness that gives it the area in the tables.
     pub(super) fn placement(&self, organ: OrganId, shape: &FormMesh) -> Placement {
-        let frame = organ_base(self.plant, organ, self.age);
+        self.placement_at(organ_base(self.plant, organ, self.age), organ, shape)
+    }
+
+    /// The same of an organ whose base is known.
+    pub(super) fn placement_at(&self, frame: Frame, organ: OrganId, shape: &FormMesh) -> Placement {
         let organs = &self.plant.organs;
         let share = self.share(organ);
         let full = [organs.length[organ.index()], organs.width[organ.index()]];

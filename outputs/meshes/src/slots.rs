@@ -99,8 +99,6 @@ impl Slots {
     /// The slots of plants that stand in a mesh one after another, each with the number of its vertices.
     pub fn of<'a>(plants: impl IntoIterator<Item = (&'a Plant, &'a MeshOptions, u64)>) -> Self {
         let plants: Vec<_> = plants.into_iter().collect();
-        let is_plain =
-            |options: &MeshOptions| options.slotting == Slotting::Kind && options.own.textures().list.is_empty();
         if plants.iter().all(|(_, options, _)| is_plain(options)) {
             return Self::default();
         }
@@ -113,11 +111,31 @@ impl Slots {
                 bodies.push(Body { end, ..same.clone() });
                 continue;
             }
-            let body =
-                Body { end, orders: orders_of(plant).into(), slots: Arc::new(slots_of(plant, options, &mut keys)) };
+            let last = plant.axes.order.iter().copied().max().unwrap_or(1);
+            let slots = Arc::new(slots_of(last, options, &mut keys));
+            let body = Body { end, orders: orders_of(plant).into(), slots };
             known.push((std::ptr::from_ref(plant), body.clone()));
             bodies.push(body);
         }
+        Self::sorted(keys, bodies)
+    }
+
+    /// The slots of plants of which each component has an order, for [`Slots::of_component`].
+    pub fn of_orders<'a>(plants: impl IntoIterator<Item = (Vec<u8>, &'a MeshOptions)>) -> Self {
+        let plants: Vec<_> = plants.into_iter().collect();
+        if plants.iter().all(|(_, options)| is_plain(options)) {
+            return Self::default();
+        }
+        let mut keys: Vec<Key> = Vec::new();
+        let body = |(orders, options): (Vec<u8>, &MeshOptions)| {
+            let last = orders.iter().copied().max().unwrap_or(1);
+            Body { end: 0, orders: orders.into(), slots: Arc::new(slots_of(last, options, &mut keys)) }
+        };
+        let bodies = plants.into_iter().map(body).collect();
+        Self::sorted(keys, bodies)
+    }
+
+    fn sorted(keys: Vec<Key>, mut bodies: Vec<Body>) -> Self {
         let (list, places) = sorted(keys);
         for body in &mut bodies {
             let moved = |slot: &u16| places[usize::from(*slot)];
@@ -195,9 +213,13 @@ fn orders_of(plant: &Plant) -> Vec<u8> {
     orders
 }
 
+/// Whether a plant has a slot for each class alone, without a texture.
+fn is_plain(options: &MeshOptions) -> bool {
+    options.slotting == Slotting::Kind && options.own.textures().list.is_empty()
+}
+
 /// The slots of the classes and orders of a plant, as places among keys, which are added where they are new.
-fn slots_of(plant: &Plant, options: &MeshOptions, keys: &mut Vec<Key>) -> [Vec<u16>; OBSTACLES] {
-    let last = plant.axes.order.iter().copied().max().unwrap_or(1);
+fn slots_of(last: u8, options: &MeshOptions, keys: &mut Vec<Key>) -> [Vec<u16>; OBSTACLES] {
     std::array::from_fn(|class| {
         let slot = |order: u8| {
             let key = key_of(options.own.as_ref(), options.slotting, class, order);

@@ -34,7 +34,8 @@ impl Thinned {
         let mut sums = ClassSums::default();
         for organ in (0..plant.organs.len()).map(|organ| OrganId(organ as u32)) {
             if plant.organ_stands(organ, age) {
-                sums.add((plant, age), organ, organ_number(plant, organ) < share);
+                let Some(class) = organ_class(plant, organ) else { continue };
+                sums.add(class, plant.organ_area(organ, age), organ_number(plant, organ) < share);
             }
         }
         sums.thinned(share)
@@ -53,7 +54,7 @@ impl Thinned {
     /// Whether an organ is one of those that become fewer.
     #[inline]
     pub fn concerns(plant: &Plant, organ: OrganId) -> bool {
-        class_of(plant, organ).is_some()
+        organ_class(plant, organ).is_some()
     }
 
     /// Whether an organ is kept.
@@ -65,7 +66,7 @@ impl Thinned {
     /// The factor of its sizes.
     #[inline]
     pub fn factor(&self, plant: &Plant, organ: OrganId) -> f32 {
-        class_of(plant, organ).map_or(1.0, |class| self.larger[class].sqrt() as f32)
+        organ_class(plant, organ).map_or(1.0, |class| self.larger[class].sqrt() as f32)
     }
 }
 
@@ -77,11 +78,9 @@ pub struct ClassSums {
 }
 
 impl ClassSums {
-    /// Adds an organ of a plant at an age, which is kept or not.
+    /// Adds an organ of a class, by its place among [`CLASSES`], and of an area, m², which is kept or not.
     #[inline]
-    pub fn add(&mut self, (plant, age): (&Plant, Tick), organ: OrganId, kept: bool) {
-        let Some(class) = class_of(plant, organ) else { return };
-        let area: f64 = plant.organ_area(organ, age);
+    pub fn add(&mut self, class: usize, area: f64, kept: bool) {
         // The sum of those that are kept is a part of the sum of all.
         for k in 0..=usize::from(kept) {
             self.areas[class][k] += area;
@@ -100,9 +99,9 @@ impl ClassSums {
     }
 }
 
-/// The place of the class of an organ among [`CLASSES`].
+/// The place of the class of an organ among [`CLASSES`]; `None` for an organ of a kind that never becomes fewer.
 #[inline]
-fn class_of(plant: &Plant, organ: OrganId) -> Option<usize> {
+pub fn organ_class(plant: &Plant, organ: OrganId) -> Option<usize> {
     let class = plant.organs.kind[organ.index()].class();
     CLASSES.iter().position(|of| *of == class)
 }

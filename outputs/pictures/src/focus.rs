@@ -1,14 +1,15 @@
 //! One organ that a picture is filled with: its points, and from where it is seen.
 //!
-//! A leaf is seen from above its upper side and a little from its apex, a flower from before it, a fruit from outside
-//! of the plant, or from near that direction where other parts would hide it (`free`). Of the largest organs of its
-//! kind, which have expanded, one is taken that is freely seen. Absent: what else of the plant is seen around it, which
-//! stays.
+//! A leaf is seen from above its upper side and a little from its apex, a flower from before it, a panicle, a catkin
+//! and a spikelet from aside, a fruit from outside of the plant, or from near that direction where other parts would
+//! hide it (`free`). Of the largest organs of its kind, which have expanded, one is taken that is freely seen. Absent:
+//! what else of the plant is seen around it, which stays.
 
 use super::View;
 use super::free::{self, Freest};
 use super::gaze::Gaze;
 use glam::Vec3;
+use phytomer_looks::FormName;
 use phytomer_meshes::{MeshOptions, Scene, Vertex};
 use phytomer_sim::Tick;
 use phytomer_sim::math::{asinf, atan2f};
@@ -133,10 +134,20 @@ fn before(scene: &Scene, organ: OrganId) -> Vec3 {
             let up = if up.z < 0.0 { -up } else { up };
             0.85 * up + 0.4 * heading + Vec3::Z * 0.15
         }
+        Class::Flower if is_long(scene.plant(), organ) => {
+            let aside = Vec3::new(heading.x, heading.y, 0.0).normalize_or(Vec3::NEG_Y);
+            (aside - aside.dot(heading) * heading).normalize_or(heading.any_orthonormal_vector()) + 0.25 * heading
+        }
         Class::Flower => 0.9 * heading + Vec3::Z * 0.35,
         _ => Vec3::new(heading.x, heading.y, 0.0).normalize_or(Vec3::NEG_Y) + Vec3::Z * 0.2,
     };
     from.normalize_or(Vec3::NEG_Y)
+}
+
+/// Whether an organ is an inflorescence that is longer than broad, of which its tip shows little.
+fn is_long(plant: &Plant, organ: OrganId) -> bool {
+    use FormName::{Catkin, Panicle, Spikelet};
+    [Catkin, Panicle, Spikelet].map(FormName::form).contains(&plant.organs.form[organ.index()])
 }
 
 /// A flower that is made of internodes, as a dog rose's, by the places of its petals, sepals, stamens and styles.

@@ -29,6 +29,7 @@ pub mod levels;
 mod placed;
 mod png;
 mod raster;
+mod search;
 mod shade;
 mod shadow;
 mod sides;

@@ -34,6 +34,9 @@ const CORNERS: [[f32; 3]; 8] = [
     [1.0, 1.0, 1.0],
 ];
 
+/// The most of the way from an outline that does not hold to one that does that is gone at once.
+pub const MOST_PART: f64 = 0.75;
+
 /// The organs of a block.
 const BLOCK: usize = 256;
 
@@ -43,6 +46,8 @@ pub struct Sides {
     lattice: Lattice,
     /// The longest side of the plant, metres.
     longest: f32,
+    /// The share of the rows that is drawn.
+    share: f64,
 }
 
 /// The samples that something covers from each direction.
@@ -99,7 +104,7 @@ impl Sides {
             columns: wide.to_array().map(|wide| count(wide, wide_scale)),
             rows: count(tall, scale),
         };
-        Some(Self { lattice, longest })
+        Some(Self { lattice, longest, share: 1.0 })
     }
 
     /// The same with a row for so many rows, and as many columns.
@@ -107,7 +112,12 @@ impl Sides {
         let (over, Lattice { rows, top, scale, .. }) = (1.0 / by as f32, &self.lattice);
         let lattice =
             Lattice { rows: rows.div_ceil(by), top: *top * over, scale: *scale * over, ..self.lattice.clone() };
-        Self { lattice, longest: self.longest }
+        Self { lattice, longest: self.longest, share: 1.0 / f64::from(by) }
+    }
+
+    /// The share of the rows that is drawn.
+    pub fn share(&self) -> f64 {
+        self.share
     }
 
     /// The longest side of the plant, metres.
@@ -212,6 +222,29 @@ impl Outline {
         counts
     }
 
+    /// The standard errors of the differences of the covered areas from each direction, as shares of the covered area
+    /// of the other, where a share of the rows is drawn, by the differences of neighbouring rows: of rows at equal
+    /// distances that is more than the error where the differences change slowly from row to row (Wolter 1984,
+    /// *Journal of the American Statistical Association* 79: 781–790, the second of eight estimators).
+    pub fn errors(&self, from: &Self, share: f64) -> [f64; DRAWN] {
+        let rows = self.bits.len() / (DRAWN * self.words.max(1));
+        let count = |of: &Self, row: usize, side: usize| {
+            let start = (row * DRAWN + side) * of.words;
+            of.bits[start..start + of.words].iter().map(|word| f64::from(word.count_ones())).sum::<f64>()
+        };
+        std::array::from_fn(|side| {
+            let pairs: Vec<[f64; 2]> =
+                (0..rows).map(|row| [self, from].map(|of| count(of, row, side))).filter(|[_, of]| *of > 0.0).collect();
+            let sums = pairs.iter().fold([0.0; 2], |sums, pair| [sums[0] + pair[0], sums[1] + pair[1]]);
+            let ratio = sums[0] / sums[1].max(1.0);
+            let left = |[own, of]: &[f64; 2]| own - ratio * of;
+            let steps = pairs.windows(2).map(|two| left(&two[0]) - left(&two[1]));
+            let squares: f64 = steps.map(|step| step * step).sum();
+            let count = pairs.len() as f64;
+            ((1.0 - share) * count * squares / (2.0 * (count - 1.0).max(1.0))).sqrt() / sums[1].max(1.0)
+        })
+    }
+
     /// How far it is from the outline of what it stands for, on the same lattices.
     pub fn apart(&self, from: &Self) -> Apart {
         let (own, of) = (self.covered(), from.covered());
@@ -236,7 +269,7 @@ impl Apart {
             let way = high - low;
             if way.abs() > 1e-9 { (low.clamp(-bound, bound) - low) / way } else { 0.0 }
         });
-        sides.fold(0.0, f64::max).clamp(0.1, 0.75)
+        sides.fold(0.0, f64::max).clamp(0.1, MOST_PART)
     }
 }
 
@@ -253,5 +286,35 @@ pub fn each_ball(scene: &Scene, take: &mut dyn FnMut(Vec3, f32)) {
         let drawn = scene.organ(organ);
         let length = plant.organs.length[organ.index()].max(drawn.size[0]).max(0.0);
         take(Vec3::from_array(drawn.base) + 0.5 * length * Vec3::from_array(drawn.heading), 0.5 * length);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Rows of so many covered samples of 64, the same from each direction.
+    fn outline(rows: impl Iterator<Item = u32>) -> Outline {
+        let bits = rows.flat_map(|count| [u64::MAX.checked_shr(64 - count).unwrap_or(0); DRAWN]).collect();
+        Outline { bits, words: 1 }
+    }
+
+    /// Rows that cover 40 and 42 samples by turns instead of 41: with d = 2 between neighbouring rows the variance of a
+    /// row is d²/2, so that of the sum of n rows is 2 n, less by the share of all rows that they are.
+    #[test]
+    fn the_error_is_that_of_rows_that_differ_by_turns() {
+        let rows = 50;
+        let (own, first) = (outline((0..rows).map(|row| 40 + row % 2 * 2)), outline((0..rows).map(|_| 41)));
+        for share in [0.5, 0.125] {
+            let expected = ((1.0 - share) * 2.0 * f64::from(rows)).sqrt() / f64::from(41 * rows);
+            for error in own.errors(&first, share) {
+                assert!((error / expected - 1.0).abs() < 1e-9, "{share}: {error}, {expected}");
+            }
+        }
+        // Rows that all cover the same share of the others have none, nor have all rows.
+        let half = outline((0..rows).map(|row| 10 + row % 5));
+        let double = outline((0..rows).map(|row| 2 * (10 + row % 5)));
+        assert!(half.errors(&double, 0.5).iter().chain(&own.errors(&first, 1.0)).all(|error| *error < 1e-12));
+        assert!((half.apart(&double).area - 0.5).abs() < 1e-12);
     }
 }

@@ -227,6 +227,22 @@ impl TakePlaces for Pen<'_, '_> {
     }
 
     fn faces(&mut self, places: &[Vec3], faces: &[[u32; 3]]) {
+        let lattice = self.sheet.lattice;
+        let (low, high) =
+            places.iter().fold((f32::INFINITY, f32::NEG_INFINITY), |(a, b), at| (a.min(at.z), b.max(at.z)));
+        let [down, up] = [low, high].map(|z| lattice.top - z * lattice.scale - 0.5);
+        let Some(met) = between(up, down, &(0..lattice.rows)) else { return };
+        if met.len() <= 2 {
+            // Of rows far from one another most triangles meet none.
+            for corners in faces.iter().map(|face| face.map(|corner| places[corner as usize])) {
+                let down = corners.map(|at| lattice.top - at.z * lattice.scale - 0.5);
+                let [low, high] = [down[0].min(down[1]).min(down[2]), down[0].max(down[1]).max(down[2])];
+                if between(low, high, &met).is_some() {
+                    self.triangle(corners.map(|at| lattice.see(at)));
+                }
+            }
+            return;
+        }
         let bounds = self.see(0, places);
         if !self.sheet.covers(bounds) {
             faces.iter().for_each(|face| self.triangle(face.map(|corner| self.seen[0][corner as usize])));

@@ -87,6 +87,8 @@ pub trait Changing: Sync {
     fn points(&self, state: State, points: &mut Vec<[f32; 3]>);
     /// The colours of the vertices of a state.
     fn colours(&self, state: State, paint: &mut dyn FnMut(usize, [u8; 3]));
+    /// The texture coordinates of the corners of the faces of a span, in their order; `None` where none are written.
+    fn textures(&self, span: usize) -> Option<Vec<[f32; 2]>>;
 }
 
 /// Writes a mesh that changes, with a material.
@@ -102,6 +104,7 @@ pub fn write(
     begin_mesh(layer, name)?;
     write_faces(layer, mesh, course)?;
     write_points(layer, mesh, course)?;
+    write_textures(layer, mesh, course)?;
     write_tags(layer, mesh, course)?;
     write_colours(layer, mesh, course)?;
     layer.relationship("material:binding", &[paint::path_of(root, material)])?;
@@ -171,6 +174,16 @@ pub fn extent(points: impl Iterator<Item = [f32; 3]>) -> [[f32; 3]; 2] {
         [std::array::from_fn(|k| point[k].min(low[k])), std::array::from_fn(|k| point[k].max(high[k]))]
     });
     if low[0] > high[0] { [[0.0; 3]; 2] } else { [low, high] }
+}
+
+fn write_textures(layer: &mut dyn Layer, mesh: &dyn Changing, course: &Course) -> io::Result<()> {
+    if mesh.textures(0).is_none() {
+        return Ok(());
+    }
+    let times = course.of_spans().map(Vec::as_slice);
+    put(layer, Attribute::over("primvars:st", "texCoord2f[]", "faceVarying"), times, &|span| {
+        Ok(List::Pairs(mesh.textures(span).unwrap_or_default()))
+    })
 }
 
 fn write_tags(layer: &mut dyn Layer, mesh: &dyn Changing, course: &Course) -> io::Result<()> {

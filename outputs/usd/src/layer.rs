@@ -103,6 +103,8 @@ pub enum List {
     Longs(Vec<i64>),
     /// Numbers.
     Floats(Vec<f32>),
+    /// Pairs.
+    Pairs(Vec<[f32; 2]>),
     /// Triples.
     Triples(Vec<[f32; 3]>),
     /// Rotations as the bits of half precision: x, y, z and the real part.
@@ -116,6 +118,7 @@ impl List {
             Self::Ints(list) => Data::Ints(list),
             Self::Longs(list) => Data::Longs(list),
             Self::Floats(list) => Data::Floats(list),
+            Self::Pairs(list) => Data::Pairs(list),
             Self::Triples(list) => Data::Triples(list),
             Self::Turns(list) => Data::Turns(list),
         }

@@ -9,6 +9,7 @@
 mod binary;
 mod changing;
 mod course;
+mod covers;
 mod layer;
 mod models;
 mod package;
@@ -23,6 +24,7 @@ mod text;
 mod tubes;
 
 pub use course::Pace;
+pub use covers::slots_of;
 pub use phytomer_life::{Member, Organs};
 pub use phytomer_meshes::Patched;
 pub use scene::{Each, Planted, Stand, Take, write_scene};
@@ -30,6 +32,7 @@ pub use still::{write_levels, write_plant, write_plot, write_plot_levels};
 
 use binary::Binary;
 use course::Course;
+use covers::Slotted;
 use layer::{Header, Layer, Variants};
 use package::Package;
 use paint::Material;
@@ -115,7 +118,7 @@ fn put_still(
     if wood.counts().faces > 0 {
         slotted = still::write_mesh(layer, (ROOT, "wood", "wood"), wood, &slots)?;
     }
-    write_organs(layer, (asked, &slotted), (plants, &skeletons), &course, false)
+    write_organs(layer, (asked, slotted), (plants, &skeletons), &course, None)
 }
 
 /// Writes lives that were shown at the same ages; wood is round within a tolerance, metres.
@@ -134,15 +137,41 @@ pub fn write_life(
     let ends = [ages.first(), ages.last()].map(|age| f64::from(age.copied().unwrap_or(0.0)) * pace.a_tick);
     let skeletons = skeletons(plants, &course);
     in_layer(asked, Some([ends[0], ends[1], pace.a_second]), out, &mut |layer| {
-        let tubes = Tubes::of(&skeletons, plants.members, tolerance);
-        if !tubes.is_empty() {
-            changing::write(layer, (ROOT, "wood", "wood"), &tubes, &course)?;
-        }
+        let slots = slots_of(plants);
+        let mut slotted = write_wood(layer, (plants, &skeletons), &slots, (&course, tolerance))?;
         if let Some(obstacles) = plants.obstacles {
-            still::write_mesh(layer, (ROOT, "obstacles", "wood"), obstacles, &Slots::default())?;
+            let own = slots.list().last().filter(|_| !slots.is_plain());
+            let material = own.map_or("wood", |slot| &slot.name);
+            still::write_mesh(layer, (ROOT, "obstacles", material), obstacles, &Slots::default())?;
+            slotted.extend(own.cloned());
         }
-        write_organs(layer, (asked, &[]), (plants, &skeletons), &course, true)
+        write_organs(layer, (asked, slotted), (plants, &skeletons), &course, Some(&slots))
     })
+}
+
+/// Writes the wood of lives, a mesh for each of its materials, and returns these where they are not one for all.
+fn write_wood(
+    layer: &mut dyn Layer,
+    (plants, skeletons): (&Plants, &[Skeleton]),
+    slots: &Slots,
+    (course, tolerance): (&Course, f32),
+) -> io::Result<Vec<Slot>> {
+    if slots.is_plain() {
+        let tubes = Tubes::of(skeletons, plants.members, tolerance, None);
+        if !tubes.is_empty() {
+            changing::write(layer, (ROOT, "wood", "wood"), &tubes, course)?;
+        }
+        return Ok(Vec::new());
+    }
+    let mut written = Vec::new();
+    for (slot, of_slot) in Slotted::each(slots, plants.options).filter(|(slot, _)| slot.class == 0) {
+        let tubes = Tubes::of(skeletons, plants.members, tolerance, Some(of_slot));
+        if !tubes.is_empty() {
+            changing::write(layer, (ROOT, &slot.name, &slot.name), &tubes, course)?;
+            written.push(slot.clone());
+        }
+    }
+    Ok(written)
 }
 
 fn skeletons<'a>(plants: &Plants<'a>, course: &'a Course) -> Vec<Skeleton<'a>> {
@@ -216,33 +245,46 @@ fn whole(layer: &mut dyn Layer, write: &mut dyn FnMut(&mut dyn Layer) -> io::Res
     layer.finish()
 }
 
-/// Writes organs and internodes that are drawn by themselves, and the materials; `slotted` are the slots of the wood
-/// where it has other materials than one.
+/// Writes organs, and of lives internodes that are drawn by themselves, and the materials; `slotted` are the slots of
+/// the wood where it has other materials than one, and `slots` are those of lives.
 fn write_organs(
     layer: &mut dyn Layer,
-    (asked, slotted): (&Asked, &[Slot]),
+    (asked, mut slotted): (&Asked, Vec<Slot>),
     (plants, skeletons): (&Plants, &[Skeleton]),
     course: &Course,
-    internodes: bool,
+    slots: Option<&Slots>,
 ) -> io::Result<()> {
     let models = met(plants, course);
     let (members, columns) = (plants.members, plants.columns);
-    let parts = |internodes| Parts { skeletons, members, models: &models, internodes, columns };
-    let stems = parts(true);
-    if internodes && !stems.is_empty() {
-        changing::write(layer, (ROOT, "stems", "wood"), &stems, course)?;
+    let parts = |internodes, slot| Parts { skeletons, members, models: &models, internodes, columns, slot };
+    let stems = parts(true, None);
+    let textured = slots.filter(|slots| !slots.is_plain());
+    if slots.is_some() && !stems.is_empty() {
+        // What is no tube has no bark.
+        let material = if textured.is_some() { "stems" } else { "wood" };
+        changing::write(layer, (ROOT, "stems", material), &stems, course)?;
+        slotted.extend(textured.map(|_| Slot { class: 0, name: material.to_owned(), texture: None }));
     }
-    let parts = parts(false);
+    let merged = asked.organs == Organs::Merged;
+    let apart = textured.filter(|_| still::are_slotted(plants.options.iter(), merged));
+    for (slot, of_slot) in apart.into_iter().flat_map(|slots| Slotted::each(slots, plants.options)) {
+        let parts = parts(false, Some(of_slot));
+        if !parts.is_empty() {
+            changing::write(layer, (ROOT, &slot.name, &slot.name), &parts, course)?;
+            slotted.push(slot.clone());
+        }
+    }
+    let parts = parts(false, None);
     let mut materials = vec![Material::plain("wood", 0.85)];
     if !slotted.is_empty() {
         materials = slotted.iter().map(Material::of).collect();
     }
-    if !parts.is_empty() {
+    if !parts.is_empty() && apart.is_none() {
         match asked.organs {
             Organs::Instances => {
                 parts.write_instances(layer, ROOT, course)?;
                 materials.extend(models::kinds(&models).into_iter().map(|kind| {
-                    let texture = texture_of(plants, kind).filter(|_| !internodes).map(|texture| (texture, false));
+                    let texture = texture_of(plants, kind).map(|texture| (texture, false));
                     Material { name: kind.tag(), roughness: 0.6, texture }
                 }));
             }

@@ -6,6 +6,7 @@
 
 use super::changing::{Changing, Faces, Tags, extent, put};
 use super::course::{Course, State};
+use super::covers::Slotted;
 use super::layer::{Attribute, Layer, List};
 use super::models::{self, rgb};
 use super::skeleton::Skeleton;
@@ -30,6 +31,8 @@ pub struct Parts<'a> {
     pub internodes: bool,
     /// What is told of each component of a single plant beside the properties of every file.
     pub columns: Option<&'a Columns<'a>>,
+    /// Which of these; `None`: all.
+    pub slot: Option<Slotted<'a>>,
 }
 
 /// A part at a state.
@@ -70,18 +73,22 @@ impl Standing<'_> {
 impl<'a> Parts<'a> {
     /// Whether there are none.
     pub fn is_empty(&self) -> bool {
-        !self.skeletons.iter().any(|skeleton| skeleton.life.parts.iter().any(|part| self.has(part)))
+        let lives = self.skeletons.iter().enumerate();
+        !lives
+            .map(|(life, skeleton)| (life, &skeleton.life.parts))
+            .any(|(life, parts)| parts.iter().any(|part| self.has(life, part)))
     }
 
-    fn has(&self, part: &Part) -> bool {
+    fn has(&self, life: usize, part: &Part) -> bool {
         matches!(part.what, What::Internode) == self.internodes
+            && self.slot.as_ref().is_none_or(|slot| slot.has_part(life, part))
     }
 
     /// The parts of a span, plant by plant, each with its place in the life.
     fn of_span(&self, span: usize) -> impl Iterator<Item = (&'a Member, usize, &'a Part)> {
         let members = self.members.iter().filter_map(|member| Some((member, self.skeletons.get(member.life)?)));
         members.flat_map(move |(member, skeleton)| {
-            let parts = skeleton.parts_of(span).filter(move |(_, part)| self.has(part));
+            let parts = skeleton.parts_of(span).filter(move |(_, part)| self.has(member.life, part));
             parts.map(move |(place, part)| (member, place, part))
         })
     }
@@ -194,6 +201,17 @@ impl Changing for Parts<'_> {
             }
             first += model.mesh.vertices.len();
         }
+    }
+
+    fn textures(&self, span: usize) -> Option<Vec<[f32; 2]>> {
+        self.slot.as_ref().filter(|slot| slot.has_texture())?;
+        let mut all = Vec::new();
+        for (member, _, part) in self.of_span(span) {
+            let Some(model) = self.models.form(member.life, part) else { continue };
+            let corners = model.mesh.faces.iter().flat_map(|face| face.indices());
+            all.extend(corners.map(|corner| model.mesh.vertices[corner as usize].texture()));
+        }
+        Some(all)
     }
 
     fn tags(&self, span: usize, tags: &mut Tags) {

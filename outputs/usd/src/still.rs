@@ -95,7 +95,7 @@ pub fn write_plot(asked: &Asked, plot: &PlotMesh, out: &mut dyn Patched) -> io::
 
 /// Whether organs have materials that instances of their forms do not tell apart: by order, or by species. Where they
 /// are merged, any texture.
-fn are_slotted<'o>(options: impl Iterator<Item = &'o MeshOptions> + Clone, merged: bool) -> bool {
+pub fn are_slotted<'o>(options: impl Iterator<Item = &'o MeshOptions> + Clone, merged: bool) -> bool {
     let of_organs = |options: &'o MeshOptions| {
         let list = &options.own.textures().list;
         list.iter().filter(|texture| texture.of != Class::Internode).collect::<Vec<_>>()

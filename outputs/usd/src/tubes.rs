@@ -7,10 +7,11 @@
 
 use super::changing::{Changing, Faces, Tags};
 use super::course::State;
+use super::covers::Slotted;
 use super::skeleton::Skeleton;
 use glam::{Quat, Vec3, Vec4Swizzles};
 use phytomer_life::{Life, Line, Member, between, stepped};
-use phytomer_meshes::{corners_of_area, meeting, sides_within};
+use phytomer_meshes::{bark_covers, corners_of_area, meeting, sides_within};
 
 /// The most by which a ring is widened in the plane of a bend.
 const WIDEST: f32 = 1.5;
@@ -25,11 +26,16 @@ pub struct Tubes<'a> {
     sides: Vec<Vec<u16>>,
     polygons: Vec<Vec<Corner>>,
     members: &'a [Member],
+    /// Which lines of which lives these are; `None`: all.
+    slot: Option<Slotted<'a>>,
+    /// Of each life the texture coordinates along its points, and the repeats around them, where there is bark.
+    bark: Vec<Vec<[f32; 2]>>,
 }
 
 impl<'a> Tubes<'a> {
-    /// The tubes of some lives within a tolerance, metres, where they stand.
-    pub fn of(skeletons: &'a [Skeleton<'a>], members: &'a [Member], tolerance: f32) -> Self {
+    /// The tubes of some lives within a tolerance, metres, where they stand; of a slot of materials alone, where one is
+    /// told.
+    pub fn of(skeletons: &'a [Skeleton<'a>], members: &'a [Member], tolerance: f32, slot: Option<Slotted<'a>>) -> Self {
         let sides: Vec<Vec<u16>> = skeletons.iter().map(|skeleton| sides(skeleton.life, tolerance)).collect();
         let mut polygons: Vec<Vec<Corner>> = Vec::new();
         for sides in sides.iter().flatten() {
@@ -39,12 +45,22 @@ impl<'a> Tubes<'a> {
                 polygons[place] = corners_of_area(*sides);
             }
         }
-        Self { skeletons, sides, polygons, members }
+        let barks = skeletons.iter().enumerate().map(|(life, skeleton)| {
+            let size = |line: &Line| slot.as_ref().and_then(|slot| slot.bark(life, line));
+            bark_along(skeleton.life, &size)
+        });
+        let bark = barks.collect();
+        Self { skeletons, sides, polygons, members, slot, bark }
     }
 
     /// Whether there is any wood.
     pub fn is_empty(&self) -> bool {
-        self.skeletons.iter().all(|skeleton| skeleton.life.lines.is_empty())
+        let has = |(life, skeleton): (usize, &Skeleton)| skeleton.life.lines.iter().any(|line| self.has(life, line));
+        !self.skeletons.iter().enumerate().any(has)
+    }
+
+    fn has(&self, life: usize, line: &Line) -> bool {
+        self.slot.as_ref().is_none_or(|slot| slot.has_line(life, line, self.skeletons[life].life))
     }
 
     /// Calls `see` with each line of a span and the places of its points.
@@ -52,7 +68,7 @@ impl<'a> Tubes<'a> {
         let mut points = Vec::new();
         for member in self.members {
             let Some(skeleton) = self.skeletons.get(member.life) else { continue };
-            for line in &skeleton.life.lines {
+            for line in skeleton.life.lines.iter().filter(|line| self.has(member.life, line)) {
                 points.clear();
                 points.extend(skeleton.members(line, span));
                 if points.len() > 1 {
@@ -69,20 +85,43 @@ fn sides(life: &Life, tolerance: f32) -> Vec<u16> {
     life.points.iter().map(|point| sides_within(largest(point), tolerance)).collect()
 }
 
+impl Tubes<'_> {
+    /// The numbers of sides of the rings at some points.
+    fn sides_of(&self, member: &Member, points: &[usize], sides: &mut Vec<usize>) {
+        sides.clear();
+        sides.extend(points.iter().map(|point| usize::from(self.sides[member.life][*point])));
+    }
+}
+
 impl Changing for Tubes<'_> {
     fn faces(&self, span: usize, faces: &mut Faces) {
-        let mut first = 0;
+        let (mut first, mut sides, mut starts) = (0, Vec::new(), Vec::new());
         self.each_line(span, &mut |member, _, points| {
-            let sides = |k: usize| usize::from(self.sides[member.life][points[k]]);
-            faces.add_all((0..sides(0)).rev().map(|corner| first + corner));
-            for k in 1..points.len() {
-                join([first, sides(k - 1)], [first + sides(k - 1), sides(k)], faces);
-                first += sides(k - 1);
+            self.sides_of(member, points, &mut sides);
+            starts.clear();
+            for count in &sides {
+                starts.push(first);
+                first += count;
             }
-            let last = sides(points.len() - 1);
-            faces.add_all((0..last).map(|corner| first + corner));
-            first += last;
+            each_face(&sides, |corners| {
+                faces.add_all(corners.iter().map(|[ring, around]| starts[*ring] + around % sides[*ring]));
+            });
         });
+    }
+
+    fn textures(&self, span: usize) -> Option<Vec<[f32; 2]>> {
+        self.slot.as_ref().filter(|slot| slot.has_texture())?;
+        let (mut all, mut sides) = (Vec::new(), Vec::new());
+        self.each_line(span, &mut |member, _, points| {
+            self.sides_of(member, points, &mut sides);
+            each_face(&sides, |corners| {
+                all.extend(corners.iter().map(|[ring, around]| {
+                    let [times, along] = self.bark[member.life][points[*ring]];
+                    [times * *around as f32 / sides[*ring] as f32, along]
+                }));
+            });
+        });
+        Some(all)
     }
 
     fn tags(&self, span: usize, tags: &mut Tags) {
@@ -163,15 +202,55 @@ impl Turned {
     }
 }
 
-/// Joins two rings by quads where they have equal sides, else by triangles, corner to nearest corner.
-fn join([a, n]: [usize; 2], [b, m]: [usize; 2], faces: &mut Faces) {
-    if n == m {
-        (0..n).for_each(|k| faces.add([a + k, a + (k + 1) % n, b + (k + 1) % n, b + k]));
-        return;
+/// Calls `see` with the corners of each face of a tube of rings of so many sides, each as its ring and its place around
+/// it; the place after the last is the first again. Quads join two rings of equal sides, else triangles, corner to
+/// nearest corner.
+#[inline]
+fn each_face(sides: &[usize], mut see: impl FnMut(&[[usize; 2]])) {
+    let Some(last) = sides.len().checked_sub(1) else { return };
+    see(&(0..sides[0]).rev().map(|around| [0, around]).collect::<Vec<_>>());
+    for (ring, pair) in sides.windows(2).enumerate() {
+        let (low, high) = (|around| [ring, around], |around| [ring + 1, around]);
+        if pair[0] == pair[1] {
+            (0..pair[0]).for_each(|k| see(&[low(k), low(k + 1), high(k + 1), high(k)]));
+            continue;
+        }
+        for (lower, [i, j]) in meeting([pair[0] as u32, pair[1] as u32]) {
+            let [i, j] = [i, j].map(|corner| corner as usize);
+            see(&[low(i), if lower { low(i + 1) } else { high(j + 1) }, high(j)]);
+        }
     }
-    for (lower, [i, j]) in meeting([n as u32, m as u32]) {
-        let [i, j] = [i, j].map(|corner| corner as usize);
-        let [low, high] = [a + i % n, b + j % m];
-        faces.add([low, if lower { a + (i + 1) % n } else { b + (j + 1) % m }, high]);
+    see(&(0..sides[last]).map(|around| [last, around]).collect::<Vec<_>>());
+}
+
+/// The repeats of bark around each point of a life, and how far it is along its line in heights of the picture, of the
+/// lines whose bark has a size: as each point stands when it is last shown, so that bark keeps its place on the wood
+/// while that grows.
+fn bark_along(life: &Life, size: &dyn Fn(&Line) -> Option<[f32; 2]>) -> Vec<[f32; 2]> {
+    let mut all = vec![[0.0; 2]; life.points.len()];
+    for line in &life.lines {
+        let Some(size) = size(line) else { continue };
+        let places: Vec<[f32; 4]> = (life.points[line.points.clone()].iter())
+            .map(|point| life.places(point).last().map_or([0.0; 4], |(_, place)| *place))
+            .collect();
+        let apart = |pair: &[[f32; 4]]| {
+            let way = [0, 1, 2].map(|k| f64::from(pair[1][k]) - f64::from(pair[0][k]));
+            way.iter().map(|x| x * x).sum::<f64>().sqrt()
+        };
+        // The mean circumference, each part by its surface.
+        let (mut surface, mut squares) = (0.0, 0.0);
+        for pair in places.windows(2) {
+            let wide = f64::from(pair[0][3]) + f64::from(pair[1][3]);
+            surface += wide * apart(pair);
+            squares += wide * wide * apart(pair);
+        }
+        let [around, long] =
+            bark_covers(size, if surface > 0.0 { std::f64::consts::PI * squares / surface } else { 0.0 });
+        let mut along = 0.0;
+        for (k, point) in line.points.clone().enumerate() {
+            along += if k > 0 { apart(&places[k - 1..=k]) } else { 0.0 };
+            all[point] = [around, along as f32 / long];
+        }
     }
+    all
 }

@@ -157,7 +157,7 @@ impl Format {
 }
 
 /// The name of a file without its ending.
-fn stem(path: &Path) -> &str {
+pub fn stem(path: &Path) -> &str {
     path.file_stem().and_then(OsStr::to_str).unwrap_or("plant")
 }
 
@@ -171,7 +171,7 @@ fn write_obj(mesh: &dyn Drawing, out: &mut Destination, path: &Path) -> io::Resu
 }
 
 /// Writes the pictures of a USD file that is no package.
-fn beside_usd(asked: &Asked, path: &Path) -> io::Result<()> {
+pub fn beside_usd(asked: &Asked, path: &Path) -> io::Result<()> {
     if asked.encoding == Encoding::Package { Ok(()) } else { write_pictures(&asked.pictures, path) }
 }
 

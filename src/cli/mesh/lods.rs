@@ -17,10 +17,11 @@ use phytomer_outputs::gltf::{self, write_levels};
 use phytomer_outputs::meshes::{Cards, PlantDrawing, Scene};
 use phytomer_outputs::pictures::Apart;
 use phytomer_outputs::pictures::cards::cards;
-use phytomer_outputs::pictures::levels::{Level, SCREEN, TooCoarse, levels};
+use phytomer_outputs::pictures::levels::{Level, SCREEN, TooCoarse, each_level, levels};
 use phytomer_outputs::usd::Organs;
 use serde_json::{Map, Value, json};
 use std::path::{Path, PathBuf};
+use std::thread;
 
 /// The most levels.
 const MOST: usize = 8;
@@ -95,7 +96,7 @@ pub fn write(mesh: &Mesh, regrown: &Regrown, format: Format) -> Result<Verdict> 
     let mut written = Vec::new();
     mesh.show_plant(regrown, &mut |what, scene| {
         check_size(scene).with_context(|| mesh.failing())?;
-        let found = match levels(scene.plant(), scene.age(), scene.options(), &most) {
+        let (found, pending) = match with_files(mesh, format, (scene, seed), &most)? {
             Ok(found) => found,
             Err(fault) => return Ok(Err(too_coarse(what, fault))),
         };
@@ -103,15 +104,16 @@ pub fn write(mesh: &Mesh, regrown: &Regrown, format: Format) -> Result<Verdict> 
             Ok(cards) => cards,
             Err(misuse) => return Ok(Err(misuse)),
         };
-        let scenes: Vec<Scene> =
-            found.iter().map(|level| Scene::new(scene.plant(), scene.age(), &level.options)).collect();
+        let of_level = |level: &Level| Scene::new(scene.plant(), scene.age(), &level.options);
+        let scenes = || found.iter().map(of_level).collect::<Vec<_>>();
         let files = match format {
-            Format::Glb(_) => vec![(mesh.out.clone(), write_glb(mesh, (&found, &scenes), cards.as_ref(), seed)?)],
-            Format::Usd(..) => vec![(mesh.out.clone(), write_usd(mesh, format, (&found, &scenes), seed)?)],
-            _ => (0..)
-                .zip(&scenes)
-                .map(|(number, scene)| write_file(mesh, format, (number, scene), seed))
-                .collect::<Result<_>>()?,
+            Format::Glb(_) => vec![(mesh.out.clone(), write_glb(mesh, (&found, &scenes()), cards.as_ref(), seed)?)],
+            Format::Usd(..) => vec![(mesh.out.clone(), write_usd(mesh, format, (&found, &scenes()), seed)?)],
+            Format::Obj => {
+                let write = |(number, scene)| write_file(mesh, format, (number, scene), seed);
+                finished((0..).zip(&scenes()).map(write).collect::<Result<_>>()?)?
+            }
+            Format::Ply | Format::Stl => finished(pending)?,
         };
         written = told(what, (&found, cards.as_ref()), asked, files);
         Ok(Ok(String::new()))
@@ -120,6 +122,46 @@ pub fn write(mesh: &Mesh, regrown: &Regrown, format: Format) -> Result<Verdict> 
         out::tell(path, words)?;
     }
     Ok(Verdict::Done)
+}
+
+/// A file that is whole but has not its name yet.
+type Pending = (PathBuf, Destination);
+
+/// The levels of a plant, and of PLY and STL their files: one is written while the next level is
+/// sought. They have their names only when all levels are found, so that a fault leaves nothing.
+fn with_files(
+    mesh: &Mesh,
+    format: Format,
+    (scene, seed): (&Scene, u64),
+    most: &[Option<u64>],
+) -> Result<Result<(Vec<Level>, Vec<Pending>), TooCoarse>> {
+    let (plant, age) = (scene.plant(), scene.age());
+    // What stands beside an OBJ file would stay after a fault.
+    if !matches!(format, Format::Ply | Format::Stl) {
+        return Ok(levels(plant, age, scene.options(), most).map(|found| (found, Vec::new())));
+    }
+    thread::scope(|scope| {
+        let first = scope.spawn(move || write_file(mesh, format, (0, scene), seed));
+        let mut writing = vec![first];
+        let found = each_level(plant, age, scene.options(), most, &mut |options| {
+            let (number, options) = (writing.len(), options.clone());
+            writing
+                .push(scope.spawn(move || write_file(mesh, format, (number, &Scene::new(plant, age, &options)), seed)));
+        });
+        let joined = |file: thread::ScopedJoinHandle<Result<Pending>>| {
+            file.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic))
+        };
+        let files = writing.into_iter().map(joined).collect::<Result<Vec<Pending>>>();
+        match found {
+            Ok(found) => Ok(Ok((found, files?))),
+            Err(fault) => Ok(Err(fault)),
+        }
+    })
+}
+
+/// Gives files their names, and returns them with their sizes.
+fn finished(files: Vec<Pending>) -> Result<Vec<(PathBuf, u64)>> {
+    files.into_iter().map(|(path, file)| Ok((path, file.finish()?))).collect()
 }
 
 /// What is told of each file.
@@ -229,11 +271,12 @@ fn write_usd(mesh: &Mesh, format: Format, (found, scenes): (&[Level], &[Scene]),
     Ok(file.finish()?)
 }
 
-fn write_file(mesh: &Mesh, format: Format, (number, scene): (usize, &Scene), seed: u64) -> Result<(PathBuf, u64)> {
+fn write_file(mesh: &Mesh, format: Format, (number, scene): (usize, &Scene), seed: u64) -> Result<Pending> {
     let path = named(&mesh.out, number);
     let mut file = Destination::create(&path)?;
     format.write_plant(scene, seed, &mut file, &path).with_context(|| format!("cannot write {}", path.display()))?;
-    Ok((path, file.finish()?))
+    file.sync()?;
+    Ok((path, file))
 }
 
 /// The name of the file of a level.

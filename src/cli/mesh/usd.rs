@@ -6,6 +6,7 @@ use super::super::budget::{Asked as Fineness, in_words};
 use super::super::regrown::Regrown;
 use super::super::span::{Span, shown};
 use super::super::{Verdict, amounts};
+use super::formats::{beside_usd, stem};
 use super::{Format, Mesh};
 use anyhow::{Context, Result};
 use phytomer::run::drawing::options_of;
@@ -50,9 +51,11 @@ pub fn write(mesh: &Mesh, regrown: &Regrown, format: Format) -> Result<Verdict> 
     let obstacles = obstacles.as_ref().map(PlotMesh::drawing).transpose()?;
     let obstacles = obstacles.as_ref().map(|obstacles| obstacles as &dyn Drawing);
     let plants = Plants { obstacles, ..Plants::of(lives, options, members) };
-    let asked = Asked { encoding, organs, words, pictures: Pictures::default() };
+    let pictures = Pictures::of(&usd::slots_of(&plants), stem(&mesh.out));
+    let asked = Asked { encoding, organs, words, pictures };
     let pace = pace(ages, mesh.growing.seconds);
     usd::write_life(&asked, &plants, within.distance, &pace, &mut file).with_context(|| mesh.failing())?;
+    beside_usd(&asked, &mesh.out).with_context(|| mesh.failing())?;
     let plants = mesh.plot.map(|_| format!(", {}", amounts::of(members.len() as u64, "plant"))).unwrap_or_default();
     mesh.tell(file, &format!("{what}{plants}{}", in_words(Some(&within))))
 }

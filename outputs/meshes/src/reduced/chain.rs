@@ -31,6 +31,10 @@ pub trait Found {
     fn chain(&mut self, samples: &[Sample], internodes: usize);
     /// An internode that is drawn by itself.
     fn apart(&mut self, node: NodeId);
+    /// Whether the colours of samples are asked for; else they are black.
+    fn asks_colours(&self) -> bool {
+        true
+    }
     /// Whether the chains of an axis, of which these are the stretches that stand, are known and need not be told.
     fn is_known(&mut self, axis: &[Stretch]) -> bool {
         let _ = axis;
@@ -89,7 +93,7 @@ impl Chain {
         if self.samples.last().is_some_and(|last| last.radius.to_bits() == frustum.radii[0].to_bits()) {
             self.samples.pop();
         }
-        let colour = stems.colour(node);
+        let colour = if found.asks_colours() { stems.colour(node) } else { [0; 3] };
         let begin = Sample { at: base, radius: frustum.radii[0], heading, node, end: false, colour };
         let tip = base + frustum.length * heading;
         self.samples

@@ -276,6 +276,10 @@ impl Found for Planner {
     fn apart(&mut self, node: NodeId) {
         self.plan.apart.push(node);
     }
+
+    fn asks_colours(&self) -> bool {
+        self.tolerance.colour < u8::MAX
+    }
 }
 
 impl Planner {

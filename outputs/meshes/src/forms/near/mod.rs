@@ -2,7 +2,7 @@
 //!
 //! A blade that bends or is folded looks right in its own proportions alone, so a form is made for a class of width
 //! over length, in steps of √2, when it is first asked for. An organ is fitted to its area as at detail 0, so that it
-//! has the area of the tables. What has no settings is a solid that becomes rounder, or an inflorescence that
+//! has the area of the tables. What has no settings is a catkin, a solid that becomes rounder, or an inflorescence that
 //! stays as it is.
 //! Absent: which detail an organ has in a picture (`crate::scene`).
 
@@ -10,6 +10,7 @@ mod area;
 mod brush;
 mod build;
 mod capitulum;
+mod catkin;
 mod cluster;
 mod flower;
 mod leaf;
@@ -107,6 +108,7 @@ pub fn of_library(form: Form, detail: u8, size: [f32; 2], area: f32) -> (&'stati
     let name = FormName::of(form).unwrap_or(FormName::Elliptic);
     LIBRARY[name as usize].fitting(detail, size, area, |aspect, detail| match name.near() {
         Some(near) => made(&near, aspect, detail),
+        None if name == FormName::Catkin => catkin::catkin(aspect, detail),
         None => rounder::rounder(super::shape(name.form()), [1, 2, 3, 5][usize::from(detail)]),
     })
 }
