@@ -3,8 +3,8 @@
 //! Known hashes (`tests/data/*.sha256`) are of a bush in its pose at rest, and of trees that bend in a wind, with the
 //! columns of mechanics. Where a change of growth or of a format is intended,
 //! `PHYTOMER_BLESS=1 cargo test --test determinism` writes new hashes. Where `PHYTOMER_INSTALLED` names the program of
-//! the same sources in another profile (CI has that of the wheel, in the profile `plain`), that program writes the bytes of the one
-//! that is tested, pictures too.
+//! the same sources in another profile (CI has that of the wheel, which is not optimised), that program writes the
+//! bytes of the one that is tested, pictures too.
 
 #[path = "program/absent.rs"]
 mod absent;

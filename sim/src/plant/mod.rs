@@ -3,9 +3,8 @@
 //! Invariants: a parent's index is smaller than its child's in each column, and its component number too, except in
 //! models that rewrite in mid-axis; death is a tick in a column, and a model that extends its plants removes nothing.
 //! So poses are one forward scan, loads one reverse scan, and nothing recurses. Each column has one writer: models
-//! write topology, rest geometry and the fates of buds and organs; [`crate::shed`] the death and the fall of branches,
-//! the model's `thicken` or secondary growth the diameters, [`crate::mechanics`] the curvature, [`crate::pose`] the
-//! frames.
+//! write topology, rest geometry and the fates of buds and organs; [`crate::shed`] the death and fall of branches, the
+//! model's `thicken` or secondary growth the diameters, [`crate::mechanics`] the curvature, [`crate::pose`] the frames.
 
 mod appeared;
 mod axis;

@@ -127,6 +127,9 @@ pub fn write(mesh: &Mesh, regrown: &Regrown, format: Format) -> Result<Verdict> 
 /// A file that is whole but has not its name yet.
 type Pending = (PathBuf, Destination);
 
+/// The levels of a plant, and the files that were written of them.
+type LevelsAndFiles = (Vec<Level>, Vec<Pending>);
+
 /// The levels of a plant, and of PLY and STL their files: one is written while the next level is
 /// sought. They have their names only when all levels are found, so that a fault leaves nothing.
 fn with_files(
@@ -134,7 +137,7 @@ fn with_files(
     format: Format,
     (scene, seed): (&Scene, u64),
     most: &[Option<u64>],
-) -> Result<Result<(Vec<Level>, Vec<Pending>), TooCoarse>> {
+) -> Result<Result<LevelsAndFiles, TooCoarse>> {
     let (plant, age) = (scene.plant(), scene.age());
     // What stands beside an OBJ file would stay after a fault.
     if !matches!(format, Format::Ply | Format::Stl) {
