@@ -78,7 +78,7 @@ pub struct ClassSums {
 }
 
 impl ClassSums {
-    /// Adds an organ of a class, by its place among [`CLASSES`], and of an area, m², which is kept or not.
+    /// Adds an organ of a class (of leaves, flowers and fruits, from 0) and of an area, m², which is kept or not.
     #[inline]
     pub fn add(&mut self, class: usize, area: f64, kept: bool) {
         // The sum of those that are kept is a part of the sum of all.
@@ -99,7 +99,7 @@ impl ClassSums {
     }
 }
 
-/// The place of the class of an organ among [`CLASSES`]; `None` for an organ of a kind that never becomes fewer.
+/// The class of an organ (of leaves, flowers and fruits, from 0); `None` for an organ of a kind that never becomes fewer.
 #[inline]
 pub fn organ_class(plant: &Plant, organ: OrganId) -> Option<usize> {
     let class = plant.organs.kind[organ.index()].class();
