@@ -99,7 +99,8 @@ impl ClassSums {
     }
 }
 
-/// The class of an organ (of leaves, flowers and fruits, from 0); `None` for an organ of a kind that never becomes fewer.
+/// The class of an organ (of leaves, flowers and fruits, from 0); `None` for an organ of a kind that never becomes
+/// fewer.
 #[inline]
 pub fn organ_class(plant: &Plant, organ: OrganId) -> Option<usize> {
     let class = plant.organs.kind[organ.index()].class();
