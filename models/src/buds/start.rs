@@ -76,8 +76,8 @@ impl Start {
         Self { grown: self.grown + length, ..self }
     }
 
-    /// The same before a growth unit whose nodes ask but for its first, so many of which touch no stem, and which goes
-    /// on beyond its first internode by no more than `further`.
+    /// The start before a growth unit which goes on beyond its first internode by no more than `further`, and of which
+    /// the first `past` nodes are known to touch no stem.
     pub fn before(self, further: f64, past: u32) -> Self {
         Self { further: if further <= FURTHEST { further } else { 0.0 }, past, ..self }
     }

@@ -9,7 +9,7 @@ use super::View;
 use super::free::{self, Freest};
 use super::gaze::Gaze;
 use glam::Vec3;
-use phytomer_looks::FormName;
+use phytomer_looks::{FormName, Paints};
 use phytomer_meshes::{MeshOptions, Scene, Vertex};
 use phytomer_sim::Tick;
 use phytomer_sim::math::{asinf, atan2f};
@@ -144,10 +144,13 @@ fn before(scene: &Scene, organ: OrganId) -> Vec3 {
     from.normalize_or(Vec3::NEG_Y)
 }
 
-/// Whether an organ is an inflorescence that is longer than broad, of which its tip shows little.
+/// Whether an organ is an inflorescence that is longer than broad, of which its tip shows little. A cluster that a
+/// species states for near views spreads, as an oil palm's, and its tip shows most of it.
 fn is_long(plant: &Plant, organ: OrganId) -> bool {
     use FormName::{Catkin, Panicle, Spikelet};
-    [Catkin, Panicle, Spikelet].map(FormName::form).contains(&plant.organs.form[organ.index()])
+    let look = plant.look_of_organ(organ);
+    let states_another = look.is_some_and(|look| Paints::of(&plant.habit).organ(look.paint).near.is_some());
+    !states_another && [Catkin, Panicle, Spikelet].map(FormName::form).contains(&plant.organs.form[organ.index()])
 }
 
 /// A flower that is made of internodes, as a dog rose's, by the places of its petals, sepals, stamens and styles.

@@ -58,8 +58,8 @@ pub fn levels(plant: &Plant, age: Tick, first: &MeshOptions, most: &[Option<u64>
     each_level(plant, age, first, most, &mut |_| ())
 }
 
-/// The same; calls `told` with the options of each level after the first as soon as it is found, so that it can be
-/// written while the next is sought.
+/// The levels of a plant, as [`levels`] finds them; calls `told` with the options of each level after the first as soon
+/// as it is found, so that it can be written while the next is sought.
 ///
 /// # Errors
 /// Those of [`levels`].

@@ -63,9 +63,9 @@ pub struct Tried {
 
 /// What was found for a number of triangles.
 pub enum Found {
-    /// One that has as many as it may have.
+    /// A mesh that has at most so many triangles.
     Fits(Tried),
-    /// The coarsest whose outline holds, which has too many.
+    /// The coarsest mesh whose outline holds, which has more triangles.
     Least(Tried),
 }
 
@@ -325,7 +325,7 @@ impl<'p> Search<'p> {
     }
 }
 
-/// The same without what no outline shows.
+/// Options of a mesh without colours, wind and normals, which no outline shows.
 fn plain(options: &MeshOptions) -> MeshOptions {
     MeshOptions { colours: None, swings: None, attributes: false, crown_normals: false, ..options.clone() }
 }

@@ -41,7 +41,7 @@ pub enum Data<'a> {
     Longs(&'a [i64]),
     /// Numbers.
     Floats(&'a [f32]),
-    /// Pairs.
+    /// Pairs of numbers, as texture coordinates are.
     Pairs(&'a [[f32; 2]]),
     /// Triples.
     Triples(&'a [[f32; 3]]),
@@ -103,7 +103,7 @@ pub enum List {
     Longs(Vec<i64>),
     /// Numbers.
     Floats(Vec<f32>),
-    /// Pairs.
+    /// Pairs of numbers, as texture coordinates are.
     Pairs(Vec<[f32; 2]>),
     /// Triples.
     Triples(Vec<[f32; 3]>),

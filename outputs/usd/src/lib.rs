@@ -260,7 +260,7 @@ fn write_organs(
     let stems = parts(true, None);
     let textured = slots.filter(|slots| !slots.is_plain());
     if slots.is_some() && !stems.is_empty() {
-        // What is no tube has no bark.
+        // Internodes that are drawn by a form of their own have no bark, which is laid around tubes.
         let material = if textured.is_some() { "stems" } else { "wood" };
         changing::write(layer, (ROOT, "stems", material), &stems, course)?;
         slotted.extend(textured.map(|_| Slot { class: 0, name: material.to_owned(), texture: None }));

@@ -31,7 +31,7 @@ pub struct Parts<'a> {
     pub internodes: bool,
     /// What is told of each component of a single plant beside the properties of every file.
     pub columns: Option<&'a Columns<'a>>,
-    /// Which of these; `None`: all.
+    /// The slot of materials whose organs or internodes these are; `None`: those of all slots.
     pub slot: Option<Slotted<'a>>,
 }
 

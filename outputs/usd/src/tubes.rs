@@ -223,9 +223,9 @@ fn each_face(sides: &[usize], mut see: impl FnMut(&[[usize; 2]])) {
     see(&(0..sides[last]).map(|around| [last, around]).collect::<Vec<_>>());
 }
 
-/// The repeats of bark around each point of a life, and how far it is along its line in heights of the picture, of the
-/// lines whose bark has a size: as each point stands when it is last shown, so that bark keeps its place on the wood
-/// while that grows.
+/// For each point of a life the repeats of bark around it, and its distance along its line in heights of the bark's
+/// picture; 0 on lines whose bark has no size. Each point is taken as it stands when it is last shown, so that bark
+/// keeps its place on wood that grows.
 fn bark_along(life: &Life, size: &dyn Fn(&Line) -> Option<[f32; 2]>) -> Vec<[f32; 2]> {
     let mut all = vec![[0.0; 2]; life.points.len()];
     for line in &life.lines {

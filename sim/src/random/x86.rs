@@ -222,7 +222,7 @@ macro_rules! two_blocks_a_register {
         #[inline]
         #[target_feature(enable = $features)]
         fn rows_apart<const GROUPS: usize>(of: &[[Sought; 2]; GROUPS]) -> [__m256i; GROUPS] {
-            // Closures given to functions without these instructions would be called, so none is.
+            // A loop, since a closure that a function without these instructions calls is not compiled into it.
             let mut rows = [cast([0_u64; 4]); GROUPS];
             for group in 0..GROUPS {
                 let [one, other] = of[group];
